@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+#include "roomscribe/geometry/polygon.hpp"
+
+#include <algorithm>
+
+namespace roomscribe {
+namespace {
+
+double cross(const Eigen::Vector2d& origin, const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+    return (a.x() - origin.x()) * (b.y() - origin.y()) -
+           (a.y() - origin.y()) * (b.x() - origin.x());
+}
+
+}  // namespace
+
+std::vector<Eigen::Vector2d> convex_hull(std::span<const Eigen::Vector2d> points) {
+    std::vector<Eigen::Vector2d> sorted(points.begin(), points.end());
+    std::sort(sorted.begin(), sorted.end(), [](const auto& a, const auto& b) {
+        return a.x() < b.x() || (a.x() == b.x() && a.y() < b.y());
+    });
+    sorted.erase(std::unique(sorted.begin(), sorted.end()), sorted.end());
+    if (sorted.size() < 3) return sorted;
+
+    std::vector<Eigen::Vector2d> hull;
+    const auto add_chain = [&hull](auto begin, auto end) {
+        const std::size_t start = hull.size();
+        for (auto point = begin; point != end; ++point) {
+            while (hull.size() >= start + 2 &&
+                   cross(hull[hull.size() - 2], hull.back(), *point) <= 0.0) {
+                hull.pop_back();
+            }
+            hull.push_back(*point);
+        }
+        hull.pop_back();  // the other chain starts with it
+    };
+    add_chain(sorted.begin(), sorted.end());
+    add_chain(sorted.rbegin(), sorted.rend());
+    return hull;
+}
+
+double signed_area(std::span<const Eigen::Vector2d> corners) {
+    double twice_area = 0.0;
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+        const Eigen::Vector2d& a = corners[i];
+        const Eigen::Vector2d& b = corners[(i + 1) % corners.size()];
+        twice_area += a.x() * b.y() - a.y() * b.x();
+    }
+    return 0.5 * twice_area;
+}
+
+}  // namespace roomscribe

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+#include <vector>
+
+namespace roomscribe {
+
+/// Convex hull, counter-clockwise, without collinear corners (Andrew's monotone chain). Fewer than
+/// 3 corners if the points are fewer or on one line.
+std::vector<Eigen::Vector2d> convex_hull(std::span<const Eigen::Vector2d> points);
+
+/// Area enclosed by a simple polygon, positive when its corners run counter-clockwise.
+double signed_area(std::span<const Eigen::Vector2d> corners);
+
+}  // namespace roomscribe

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+#include "roomscribe/geometry/transform.hpp"
+
+#include <Eigen/SVD>
+#include <cmath>
+
+namespace roomscribe {
+
+double rotation_angle(const Eigen::Matrix3d& rotation) {
+    const Eigen::Quaterniond quaternion(rotation);
+    return 2.0 * std::atan2(quaternion.vec().norm(), std::abs(quaternion.w()));
+}
+
+Eigen::Matrix3d nearest_rotation(const Eigen::Matrix3d& matrix) {
+    const Eigen::JacobiSVD<Eigen::Matrix3d> svd(matrix, Eigen::ComputeFullU | Eigen::ComputeFullV);
+    Eigen::Matrix3d u = svd.matrixU();
+    if ((u * svd.matrixV().transpose()).determinant() < 0.0) u.col(2) *= -1.0;
+    return u * svd.matrixV().transpose();
+}
+
+Transform transform_from_twist(const Eigen::Matrix<double, 6, 1>& twist) {
+    const Eigen::Vector3d rotation = twist.head<3>();
+    const double angle = rotation.norm();
+    Transform transform = Transform::Identity();
+    if (angle > 0.0) {
+        transform.linear() = Eigen::AngleAxisd(angle, rotation / angle).toRotationMatrix();
+    }
+    transform.translation() = twist.tail<3>();
+    return transform;
+}
+
+}  // namespace roomscribe

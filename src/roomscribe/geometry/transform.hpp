@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Geometry>
+
+namespace roomscribe {
+
+/// A rigid motion, named `target_from_source`: x_target = target_from_source * x_source.
+using Transform = Eigen::Isometry3d;
+
+/// Angle of the rotation in [0, pi]. Accurate near 0 and near pi.
+double rotation_angle(const Eigen::Matrix3d& rotation);
+
+/// The rotation nearest to a matrix that has drifted from one (polar decomposition by SVD).
+Eigen::Matrix3d nearest_rotation(const Eigen::Matrix3d& matrix);
+
+/// The motion for a small twist (rotation vector, then translation): rotation by the exponential
+/// map, translation as it stands.
+Transform transform_from_twist(const Eigen::Matrix<double, 6, 1>& twist);
+
+}  // namespace roomscribe

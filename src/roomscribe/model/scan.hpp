@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "roomscribe/geometry/point_cloud.hpp"
+#include "roomscribe/geometry/transform.hpp"
+
+namespace roomscribe {
+
+/// One cloud as the scanner left it, in the scanner's frame.
+struct Scan {
+    std::string name;  ///< file name, for people
+    PointCloud cloud;
+
+    /// Where the rays start, in the scan's frame: what the file says, else its origin.
+    Eigen::Vector3d sensor_position() const {
+        return cloud.sensor_pose ? Eigen::Vector3d(cloud.sensor_pose->translation())
+                                 : Eigen::Vector3d::Zero();
+    }
+};
+
+/// A run of points of the map that one scanner position saw.
+struct MapSection {
+    std::string name;
+    std::uint32_t first = 0;
+    std::uint32_t count = 0;
+    /// Scanner position in the map frame, if known. Unknown for a cloud that was merged before.
+    std::optional<Eigen::Vector3d> sensor_position;
+};
+
+/// All scans in one frame, one after another in input order: every point of every scan, NaN too.
+/// The points of a scan that could not be placed are NaN.
+struct ScanMap {
+    PointCloud cloud;
+    std::vector<MapSection> sections;
+};
+
+/// Puts the scans one after another. `map_from_scan[i]` is empty for a scan without a place.
+/// Properties that only some scans have are dropped. Precondition: one pose slot per scan.
+ScanMap merge_scans(std::span<const Scan> scans,
+                    std::span<const std::optional<Transform>> map_from_scan);
+
+/// A map of one cloud that stays as it is; where it was seen from is what its file says, else
+/// unknown.
+ScanMap map_of_cloud(Scan scan);
+
+}  // namespace roomscribe

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "roomscribe/core/context.hpp"
+#include "roomscribe/core/derived_value.hpp"
+#include "roomscribe/model/registration_result.hpp"
+#include "roomscribe/model/scan.hpp"
+#include "roomscribe/model/scene.hpp"
+#include "roomscribe/pipeline/pipeline_settings.hpp"
+
+namespace roomscribe {
+
+/// What a stage cost.
+struct StageCost {
+    std::string stage;
+    double seconds = 0.0;
+    std::size_t peak_memory = 0;  ///< bytes that the process had held at most when the stage ended
+};
+
+/// Everything that a run finds out. `registration` is empty for a map that came registered.
+struct Reconstruction {
+    std::optional<Registration> registration;
+    ScanMap map;
+    Scene scene;
+    PointLabels labels;
+    std::vector<DerivedValue> derived_values;
+    std::vector<StageCost> stage_costs;
+};
+
+/// Scans as the scanner left them -> one map (its frame is the first scan's).
+/// Throws InvalidArgument if there are no scans.
+Reconstruction register_to_map(std::span<const Scan> scans, const PipelineSettings& settings = {},
+                               const Context& context = {});
+
+/// A registered map -> scene and labels, added to a reconstruction that has its map.
+void interpret_map(Reconstruction& reconstruction, const PipelineSettings& settings = {},
+                   const Context& context = {});
+
+/// The whole job: register_to_map, then interpret_map.
+Reconstruction reconstruct(std::span<const Scan> scans, const PipelineSettings& settings = {},
+                           const Context& context = {});
+
+}  // namespace roomscribe
