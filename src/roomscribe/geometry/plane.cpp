@@ -2,6 +2,7 @@
 #include "roomscribe/geometry/plane.hpp"
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 

@@ -25,8 +25,10 @@ struct RegistrationLink {
     std::size_t target = 0;
     Transform target_from_source = Transform::Identity();
     LinkVerdict verdict = LinkVerdict::rejected;
-    /// Share of the source's surface that lies on the target's, where both could see it; [0, 1].
+    /// Share of both scans' points that lie on or near the other's surface, in [0, 1].
     double overlap = 0.0;
+    /// Of the points on which the other scan has a say, the share that it confirms, in [0, 1].
+    double agreement = 0.0;
     double rmse = 0.0;  ///< m, over the inliers
     std::size_t inliers = 0;
     /// Of target_from_source: (rotation vector, translation), rad2 / rad m / m2.

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cstddef>
 #include <optional>
 #include <span>
-#include <string>
 #include <vector>
 
 #include "roomscribe/core/context.hpp"
@@ -13,15 +11,9 @@
 #include "roomscribe/model/scan.hpp"
 #include "roomscribe/model/scene.hpp"
 #include "roomscribe/pipeline/pipeline_settings.hpp"
+#include "roomscribe/pipeline/stage_costs.hpp"
 
 namespace roomscribe {
-
-/// What a stage cost.
-struct StageCost {
-    std::string stage;
-    double seconds = 0.0;
-    std::size_t peak_memory = 0;  ///< bytes that the process had held at most when the stage ended
-};
 
 /// Everything that a run finds out. `registration` is empty for a map that came registered.
 struct Reconstruction {

@@ -35,7 +35,7 @@ struct VoxelGrid {
 };
 
 /// Thins a cloud to one point per cubic voxel. Voxels are aligned to the cloud's own axes. Points
-/// that are not finite are left out. Colours, intensities and channels are dropped.
+/// that are not finite, or lie more than 10^9 voxels out, are left out. Colours, intensities and channels are dropped.
 VoxelGrid downsample_voxel_grid(const PointCloud& cloud, const VoxelGridSettings& settings = {},
                                 const Context& context = {});
 

@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: MIT
+#include "roomscribe/pipeline/workspace.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <system_error>
+#include <utility>
+
+#include "roomscribe/core/error.hpp"
+#include "roomscribe/export/json.hpp"
+#include "roomscribe/io/atomic_file.hpp"
+#include "roomscribe/io/point_cloud_io.hpp"
+#include "roomscribe/io/poses_io.hpp"
+#include "roomscribe/pipeline/file_hash.hpp"
+
+namespace roomscribe {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// What holds between the shifted coordinates of clouds in memory, for the coordinates in files.
+Transform in_file_coordinates(const Transform& target_from_source,
+                              const Eigen::Vector3d& target_shift,
+                              const Eigen::Vector3d& source_shift) {
+    return Eigen::Translation3d(target_shift) * target_from_source *
+           Eigen::Translation3d(-source_shift);
+}
+
+Scene in_file_coordinates(Scene scene, const Eigen::Vector3d& shift) {
+    const auto move = [&shift](std::vector<Eigen::Vector3d>& polygon) {
+        for (Eigen::Vector3d& corner : polygon) corner += shift;
+    };
+    for (Component& component : scene.components) {
+        move(component.polygon);
+        if (component.box) component.box->center += shift;
+    }
+    for (Room& room : scene.rooms) move(room.polygon);
+    scene.room_from_map =
+        in_file_coordinates(scene.room_from_map, Eigen::Vector3d::Zero(), shift);
+    return scene;
+}
+
+bool has_channel(const PointCloud& cloud, std::string_view name) {
+    return std::any_of(cloud.channels.begin(), cloud.channels.end(),
+                       [name](const Channel& channel) { return channel.name == name; });
+}
+
+template <typename Value>
+void add_channel(PointCloud& cloud, const std::string& name, ScalarType type,
+                 const std::vector<Value>& values) {
+    for (Channel& channel : cloud.channels) {
+        if (channel.name != name) continue;
+        // The input has a property of that name, a truth say: it is carried through renamed.
+        std::string free_name = "input_" + name;
+        while (has_channel(cloud, free_name)) free_name.insert(0, "input_");
+        channel.name = free_name;
+    }
+    const auto bytes = std::as_bytes(std::span(values));
+    cloud.channels.push_back({name, type, 1, {bytes.begin(), bytes.end()}});
+}
+
+PointCloud labelled_cloud(const PointCloud& cloud, const PointLabels& labels) {
+    const std::size_t size = cloud.size();
+    if (labels.labels.size() != size || labels.instances.size() != size ||
+        labels.confidences.size() != size) {
+        throw InvalidArgument("labels", fmt::format("{} labels", labels.labels.size()),
+                              fmt::format("one per point of the map, {}", size));
+    }
+    PointCloud labelled = cloud;
+    add_channel(labelled, "label", ScalarType::uint8, labels.labels);
+    add_channel(labelled, "instance", ScalarType::int32, labels.instances);
+    add_channel(labelled, "confidence", ScalarType::float32, labels.confidences);
+    return labelled;
+}
+
+/// "registration.icp.max_iterations" becomes an object in an object.
+Json nested_settings(std::span<const SettingEntry> settings) {
+    Json nested = Json::object();
+    for (const SettingEntry& setting : settings) {
+        std::string pointer = "/" + setting.name;
+        std::replace(pointer.begin(), pointer.end(), '.', '/');
+        const Json value = setting.is_text ? Json(setting.value)
+                                           : Json::parse(setting.value, nullptr, false);
+        nested[Json::json_pointer(pointer)] = value.is_discarded() ? Json(setting.value) : value;
+    }
+    return nested;
+}
+
+[[noreturn]] void refuse_folder(const std::filesystem::path& folder, std::string_view reason) {
+    throw IoError(folder.string(), "output folder", {}, reason,
+                  "choose a folder that you may write to");
+}
+
+}  // namespace
+
+InputFile describe_input(const std::filesystem::path& path) {
+    std::error_code error;
+    const std::uintmax_t size = std::filesystem::file_size(path, error);
+    if (error) {
+        throw IoError(path.string(), "", {}, error.message(), "check the path and its permissions");
+    }
+    return {path.string(), size, hash_file(path)};
+}
+
+void prepare_output_folder(const std::filesystem::path& folder) {
+    std::error_code error;
+    std::filesystem::create_directories(folder, error);
+    if (error) refuse_folder(folder, error.message());
+    if (!std::filesystem::is_directory(folder, error)) refuse_folder(folder, "is not a folder");
+    // Never committed: it only shows, before hours of work, that a file can be made here.
+    const AtomicFile trial(folder / "run.json", "JSON");
+}
+
+void write_registration(const std::filesystem::path& folder, const Reconstruction& reconstruction,
+                        std::span<const Scan> scans, const Context& context) {
+    const std::size_t num_poses =
+        reconstruction.registration ? reconstruction.registration->map_from_scan.size() : 0;
+    if (num_poses != scans.size()) {
+        throw InvalidArgument("scans", fmt::format("{} scans", scans.size()),
+                              fmt::format("the {} that were registered", num_poses));
+    }
+    const Registration& registration = *reconstruction.registration;
+    const PointCloud& map = reconstruction.map.cloud;
+    std::vector<std::string> names;
+    std::vector<std::optional<Transform>> poses = registration.map_from_scan;
+    for (std::size_t i = 0; i < scans.size(); ++i) {
+        names.push_back(scans[i].name);
+        if (!poses[i]) continue;
+        poses[i] = in_file_coordinates(*poses[i], map.global_shift, scans[i].cloud.global_shift);
+    }
+    write_poses(folder / "poses.txt", poses);
+    write_file(folder / "registration.json", "JSON", registration_to_json(registration, names));
+    write_point_cloud(folder / "map.ply", map, {.encoding = Encoding::binary}, context);
+}
+
+void write_interpretation(const std::filesystem::path& folder, const Reconstruction& reconstruction,
+                          const Context& context) {
+    const PointCloud& map = reconstruction.map.cloud;
+    const PointCloud labelled = labelled_cloud(map, reconstruction.labels);
+    write_point_cloud(folder / "labels.ply", labelled, {.encoding = Encoding::binary}, context);
+    write_file(folder / "scene.json", "JSON",
+               scene_to_json(in_file_coordinates(reconstruction.scene, map.global_shift)));
+}
+
+std::string run_to_json(const RunRecord& record, const Reconstruction& reconstruction) {
+    Json json;
+    json["format"] = "roomscribe-run";
+    json["version"] = 1;
+    json["program_version"] = record.version;
+    json["command"] = record.command;
+    json["threads"] = record.num_threads;
+    json["inputs"] = Json::array();
+    for (const InputFile& input : record.inputs) {
+        json["inputs"].push_back({{"path", input.path},
+                                  {"size", input.size},
+                                  {"xxh64", fmt::format("{:016x}", input.xxh64)}});
+    }
+    json["settings"] = nested_settings(record.settings);
+    json["derived_values"] = Json::array();
+    for (const DerivedValue& derived : reconstruction.derived_values) {
+        json["derived_values"].push_back({{"name", derived.name},
+                                          {"value", derived.value},
+                                          {"unit", derived.unit},
+                                          {"reason", derived.reason}});
+    }
+    json["stages"] = Json::array();
+    for (const StageCost& cost : reconstruction.stage_costs) {
+        json["stages"].push_back({{"stage", cost.stage},
+                                  {"seconds", cost.seconds},
+                                  {"peak_memory", cost.peak_memory}});
+    }
+    return lay_out_json(json.dump(-1, ' ', false, Json::error_handler_t::replace));
+}
+
+void write_run_record(const std::filesystem::path& folder, const RunRecord& record,
+                      const Reconstruction& reconstruction) {
+    write_file(folder / "run.json", "JSON", run_to_json(record, reconstruction));
+}
+
+}  // namespace roomscribe

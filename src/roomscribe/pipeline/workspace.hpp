@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "roomscribe/core/context.hpp"
+#include "roomscribe/core/settings.hpp"
+#include "roomscribe/model/scan.hpp"
+#include "roomscribe/pipeline/reconstruct.hpp"
+
+namespace roomscribe {
+
+/// A file that went into a run.
+struct InputFile {
+    std::string path;
+    std::uint64_t size = 0;   ///< bytes
+    std::uint64_t xxh64 = 0;  ///< hash_file
+};
+
+/// What is to be known of a run beside its results.
+struct RunRecord {
+    std::string version;  ///< of the program
+    std::string command;  ///< "run", "register", "interpret"
+    std::vector<SettingEntry> settings;  ///< list_settings(PipelineSettings)
+    std::vector<InputFile> inputs;       ///< in input order
+    int num_threads = 0;                 ///< that the run used
+};
+
+/// Size and hash of a file. Throws IoError if it cannot be read.
+InputFile describe_input(const std::filesystem::path& path);
+
+/// Makes the folder, with its parents, and tries whether a file can be written in it: called before
+/// the work starts, so that a long run does not end without a place for its result. Throws IoError.
+void prepare_output_folder(const std::filesystem::path& folder);
+
+// Each of the following writes into an existing folder the files of docs/formats.md, every one under
+// a temporary name that is then renamed: a killed run leaves whole files or none. All coordinates in
+// files are file coordinates, global shifts included. They throw IoError if a file cannot be
+// written.
+
+/// poses.txt, registration.json and map.ply. `scans` are those that the map was made of.
+/// Preconditions: reconstruction.registration holds, with one pose slot per scan.
+void write_registration(const std::filesystem::path& folder, const Reconstruction& reconstruction,
+                        std::span<const Scan> scans, const Context& context = {});
+
+/// labels.ply and scene.json. Precondition: labels are given for every point of the map.
+void write_interpretation(const std::filesystem::path& folder, const Reconstruction& reconstruction,
+                          const Context& context = {});
+
+/// run.json: the record, with the stage costs and derived values of the reconstruction.
+void write_run_record(const std::filesystem::path& folder, const RunRecord& record,
+                      const Reconstruction& reconstruction);
+
+/// The text of run.json.
+std::string run_to_json(const RunRecord& record, const Reconstruction& reconstruction);
+
+}  // namespace roomscribe

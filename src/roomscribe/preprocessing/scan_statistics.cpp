@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: MIT
+#include "roomscribe/preprocessing/scan_statistics.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "roomscribe/core/parallel.hpp"
+#include "roomscribe/geometry/plane.hpp"
+#include "roomscribe/geometry/search_tree.hpp"
+#include "roomscribe/preprocessing/voxel_grid.hpp"
+
+namespace roomscribe {
+namespace {
+
+/// Enough neighbours to leave a single scan line, few enough to stay on one surface.
+constexpr std::size_t num_neighbors = 24;
+
+/// The surface is sampled by about this many cells along the diagonal: some thousand samples.
+constexpr double cells_along_extent = 60.0;
+
+/// At least this share of a scan's surface is smooth (floor, ceiling, walls): the quantile of the
+/// residuals that measures noise rather than shape.
+constexpr double smooth_quantile = 0.3;
+
+double quantile(std::vector<double>& values, double share) {
+    if (values.empty()) return 0.0;
+    const auto rank = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+    std::nth_element(values.begin(), values.begin() + rank, values.end());
+    return values[static_cast<std::size_t>(rank)];
+}
+
+double middle_extent(const std::vector<Eigen::Vector3f>& points) {
+    Eigen::Vector3d size;
+    for (Eigen::Index axis = 0; axis < 3; ++axis) {
+        std::vector<double> coordinates;
+        coordinates.reserve(points.size());
+        for (const Eigen::Vector3f& point : points) coordinates.push_back(point[axis]);
+        const double low = quantile(coordinates, 0.01);
+        size[axis] = quantile(coordinates, 0.99) - low;
+    }
+    return size.norm();
+}
+
+/// One point per occupied cell of a coarse grid, so that the dense zone near the scanner does not
+/// decide.
+std::vector<std::uint32_t> sample_surface(const PointCloud& cloud, double extent,
+                                          const Context& context) {
+    const VoxelGrid grid =
+        downsample_voxel_grid(cloud, {.voxel_size = extent / cells_along_extent}, context);
+    std::vector<std::uint32_t> sample(grid.cloud.size(), no_voxel);
+    for (std::uint32_t i = 0; i < cloud.size(); ++i) {
+        const std::uint32_t voxel = grid.voxel_of_point[i];
+        if (voxel != no_voxel && sample[voxel] == no_voxel) sample[voxel] = i;
+    }
+    return sample;
+}
+
+struct LocalMeasures {
+    double reach = 0.0;  ///< m, distance of the last neighbour
+    double spacing = 0.0;
+    double residual = -1.0;  ///< negative where the neighbours lie on one line
+};
+
+LocalMeasures measure(const std::vector<Eigen::Vector3f>& points, const SearchTree& tree,
+                      const Eigen::Vector3f& center, std::vector<Neighbor>& neighbors) {
+    tree.nearest(center, num_neighbors, neighbors);
+    const auto count = static_cast<double>(neighbors.size());
+    LocalMeasures measures;
+    measures.reach = std::sqrt(static_cast<double>(neighbors.back().squared_distance));
+    // On a surface a disc of the k-th neighbour's radius holds k points: pi r^2 / k area for each.
+    measures.spacing =
+        measures.reach * std::sqrt(std::numbers::pi / std::max(count - 1.0, 1.0));
+    PlaneMoments moments;
+    for (const Neighbor& neighbor : neighbors) {
+        moments.add(points[neighbor.index].cast<double>());
+    }
+    const auto fit = moments.fit();
+    constexpr double min_flatness = 0.02;  // variance ratio: below, this is one scan line
+    if (fit && fit->variances[1] > min_flatness * fit->variances[2]) {
+        // The plane took three degrees of freedom.
+        measures.residual = fit->rms * std::sqrt(count / std::max(count - 3.0, 1.0));
+    }
+    return measures;
+}
+
+}  // namespace
+
+ScanStatistics estimate_scan_statistics(const PointCloud& cloud, const Context& context) {
+    ScanStatistics statistics;
+    std::vector<Eigen::Vector3f> points;
+    points.reserve(cloud.size());
+    for (const Eigen::Vector3f& point : cloud.positions) {
+        if (is_finite(point)) points.push_back(point);
+    }
+    statistics.num_points = points.size();
+    if (points.size() < 3) return statistics;
+    statistics.extent = middle_extent(points);
+    if (statistics.extent <= 0.0) return statistics;
+
+    PointCloud finite;
+    finite.positions = std::move(points);
+    const std::vector<std::uint32_t> sample = sample_surface(finite, statistics.extent, context);
+    const SearchTree tree(finite.positions);
+    std::vector<LocalMeasures> measures(sample.size());
+    parallel_for(context, sample.size(), 128, [&](std::size_t begin, std::size_t end) {
+        std::vector<Neighbor> neighbors;
+        for (std::size_t i = begin; i < end; ++i) {
+            measures[i] = measure(finite.positions, tree, finite.positions[sample[i]], neighbors);
+        }
+    });
+
+    // Stray returns far out (beyond a window, at the end of the scanner's range) fill cells of their
+    // own, but no surface. They count only if nearly everything is as thin.
+    const double cell_size = statistics.extent / cells_along_extent;
+    const auto is_surface = [&](const LocalMeasures& local) { return local.reach <= cell_size; };
+    const auto num_surface = std::count_if(measures.begin(), measures.end(), is_surface);
+    if (10 * static_cast<std::size_t>(num_surface) >= measures.size()) {
+        std::erase_if(measures, [&](const LocalMeasures& local) { return !is_surface(local); });
+    }
+
+    std::vector<double> spacings;
+    std::vector<double> residuals;
+    for (const LocalMeasures& local : measures) {
+        spacings.push_back(local.spacing);
+        if (local.residual >= 0.0) residuals.push_back(local.residual);
+    }
+    statistics.point_spacing = quantile(spacings, 0.5);
+    statistics.noise = quantile(residuals, smooth_quantile);
+    return statistics;
+}
+
+}  // namespace roomscribe

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+#include "roomscribe/registration/prepared_scan.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+#include "roomscribe/preprocessing/normal_estimation.hpp"
+#include "roomscribe/preprocessing/outlier_removal.hpp"
+#include "roomscribe/preprocessing/voxel_grid.hpp"
+
+namespace roomscribe {
+namespace {
+
+SurfacePoints thin_to_surface(const Scan& scan, double voxel_size, const Context& context) {
+    const VoxelGrid grid = downsample_voxel_grid(scan.cloud, {.voxel_size = voxel_size}, context);
+    const SearchTree all(grid.cloud.positions);
+    const std::vector<std::uint32_t> kept =
+        remove_outliers(grid.cloud.positions, all, {}, context);
+    std::vector<Eigen::Vector3f> positions = select_points(grid.cloud, kept).positions;
+    SearchTree tree(positions);
+    std::vector<Eigen::Vector3f> normals =
+        estimate_normals(positions, tree, scan.sensor_position(), {}, context).normals;
+    return {std::move(positions), std::move(normals), std::move(tree)};
+}
+
+/// Every n-th coarse point with a normal: enough for a share of them to be good to two per cent.
+OrientedPoints sample_surface(const SurfacePoints& points) {
+    constexpr std::size_t sample_size = 2500;
+    const std::size_t stride = std::max<std::size_t>(1, points.positions.size() / sample_size);
+    OrientedPoints sample;
+    for (std::size_t i = 0; i < points.positions.size(); i += stride) {
+        if (!points.normals[i].allFinite()) continue;
+        sample.positions.push_back(points.positions[i]);
+        sample.normals.push_back(points.normals[i]);
+    }
+    return sample;
+}
+
+/// Points whose histogram differs most from the scan's mean histogram: on bare walls and floors all
+/// histograms are alike and say nothing (persistence analysis, Rusu et al. 2008).
+std::vector<std::uint32_t> choose_distinctive(const FpfhDescriptors& descriptors) {
+    // More matches cost more than they tell: pairs of matches are compared with each other.
+    constexpr std::size_t max_keypoints = 2500;
+    std::vector<std::uint32_t> order(static_cast<std::size_t>(descriptors.cols()));
+    std::iota(order.begin(), order.end(), 0U);
+    if (order.size() <= max_keypoints) return order;
+    const Eigen::Matrix<float, fpfh_size, 1> mean = descriptors.rowwise().mean();
+    const Eigen::VectorXf distances = (descriptors.colwise() - mean).colwise().squaredNorm();
+    std::stable_sort(order.begin(), order.end(), [&distances](std::uint32_t a, std::uint32_t b) {
+        return distances[a] > distances[b];
+    });
+    order.resize(max_keypoints);
+    std::sort(order.begin(), order.end());
+    return order;
+}
+
+}  // namespace
+
+PreparedScan prepare_scan(const Scan& scan, const RegistrationScale& scale,
+                          const Context& context) {
+    SurfacePoints coarse = thin_to_surface(scan, scale.coarse_voxel, context);
+    std::vector<std::uint32_t> candidates(coarse.positions.size());
+    std::iota(candidates.begin(), candidates.end(), 0U);
+    const FpfhDescriptors all = compute_fpfh(coarse.positions, coarse.normals, coarse.tree,
+                                             candidates, {.radius = scale.fpfh_radius}, context);
+    std::vector<std::uint32_t> keypoints = choose_distinctive(all);
+    FpfhDescriptors descriptors(fpfh_size, static_cast<Eigen::Index>(keypoints.size()));
+    for (std::size_t i = 0; i < keypoints.size(); ++i) {
+        descriptors.col(static_cast<Eigen::Index>(i)) = all.col(keypoints[i]);
+    }
+
+    // Rims contradict a few per cent of any honest scan.
+    constexpr double max_self_contradiction = 0.14;
+    const bool free_space_is_valid =
+        self_contradiction(scan.cloud.positions, scan.sensor_position(), 0.5 * scale.coarse_voxel) <
+        max_self_contradiction;
+    const PointSpread spread = measure_spread(coarse.positions);
+    OrientedPoints sample = sample_surface(coarse);
+    return {std::move(coarse),
+            thin_to_surface(scan, scale.fine_voxel, context),
+            std::move(sample),
+            std::move(keypoints),
+            std::move(descriptors),
+            spread,
+            FreeSpace(scan.cloud.positions, scan.sensor_position()), free_space_is_valid};
+}
+
+}  // namespace roomscribe

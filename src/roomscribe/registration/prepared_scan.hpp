@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+#include "roomscribe/core/context.hpp"
+#include "roomscribe/geometry/search_tree.hpp"
+#include "roomscribe/model/scan.hpp"
+#include "roomscribe/registration/fpfh_descriptor.hpp"
+#include "roomscribe/registration/free_space.hpp"
+
+namespace roomscribe {
+
+/// A scan thinned to one spacing, with normals towards the scanner.
+struct SurfacePoints {
+    std::vector<Eigen::Vector3f> positions;
+    std::vector<Eigen::Vector3f> normals;
+    SearchTree tree;
+};
+
+struct OrientedPoints {
+    std::vector<Eigen::Vector3f> positions;
+    std::vector<Eigen::Vector3f> normals;
+};
+
+/// Sizes that all scans of a job share, so that their descriptors can be compared.
+struct RegistrationScale {
+    double coarse_voxel = 0.1;  ///< m, of the points that are matched
+    double fine_voxel = 0.05;   ///< m, of the points that are aligned
+    double fpfh_radius = 0.5;   ///< m
+    double noise = 0.01;        ///< m
+};
+
+/// All that registration needs of a scan, computed once however many partners it meets.
+struct PreparedScan {
+    SurfacePoints coarse;
+    SurfacePoints fine;
+    OrientedPoints sample;  ///< some of the coarse points, spread evenly
+    std::vector<std::uint32_t> keypoints;  ///< numbers of coarse points
+    FpfhDescriptors descriptors;           ///< one column per keypoint
+    PointSpread spread;                    ///< of the coarse points
+    FreeSpace free_space;
+    /// The rays really start at the sensor position: what they passed through may be used.
+    bool free_space_is_valid = false;
+};
+
+/// Voxel grid, outlier removal, normals, keypoints, FPFH (steps 1 and 2 of the paper's Algorithm 1).
+PreparedScan prepare_scan(const Scan& scan, const RegistrationScale& scale,
+                          const Context& context = {});
+
+}  // namespace roomscribe
