@@ -32,6 +32,11 @@ bool nearer(const Neighbor& a, const Neighbor& b) {
            (a.squared_distance == b.squared_distance && a.index < b.index);
 }
 
+/// The least float above: with it as a limit, a point at exactly the distance still passes `<`.
+float just_above(float value) {
+    return std::nextafter(value, std::numeric_limits<float>::max());
+}
+
 /// Keeps the `capacity` nearest points seen so far, sorted; nanoflann's result-set contract.
 class NearestSet {
   public:
@@ -43,26 +48,50 @@ class NearestSet {
     }
     bool full() const { return neighbors_.size() == capacity_; }
     std::size_t size() const { return neighbors_.size(); }
-    float worstDist() const {
-        // One step up lets an equally near point with a lower index still be seen.
-        return full() ? std::nextafter(neighbors_.back().squared_distance,
-                                       std::numeric_limits<float>::max())
-                      : std::numeric_limits<float>::max();
-    }
+    float worstDist() const { return limit_; }
     bool addPoint(float squared_distance, std::uint32_t index) {
         const Neighbor candidate{index, squared_distance};
-        if (full()) {
-            if (!nearer(candidate, neighbors_.back())) return true;
-            neighbors_.pop_back();
+        if (!full()) {
+            neighbors_.push_back(candidate);
+        } else if (nearer(candidate, neighbors_.back())) {
+            neighbors_.back() = candidate;
+        } else {
+            return true;
         }
-        neighbors_.insert(
-            std::upper_bound(neighbors_.begin(), neighbors_.end(), candidate, nearer), candidate);
+        for (std::size_t i = neighbors_.size() - 1;
+             i > 0 && nearer(candidate, neighbors_[i - 1]); --i) {
+            std::swap(neighbors_[i], neighbors_[i - 1]);
+        }
+        if (full()) limit_ = just_above(neighbors_.back().squared_distance);
         return true;
     }
 
   private:
     std::vector<Neighbor>& neighbors_;
     std::size_t capacity_;
+    float limit_ = std::numeric_limits<float>::max();
+};
+
+/// Keeps the nearest point; nanoflann's result-set contract.
+class NearestOne {
+  public:
+    using DistanceType = float;
+
+    bool full() const { return limit_ < std::numeric_limits<float>::max(); }
+    std::size_t size() const { return full() ? 1 : 0; }
+    float worstDist() const { return limit_; }
+    bool addPoint(float squared_distance, std::uint32_t index) {
+        const Neighbor candidate{index, squared_distance};
+        if (full() && !nearer(candidate, neighbor_)) return true;
+        neighbor_ = candidate;
+        limit_ = just_above(squared_distance);
+        return true;
+    }
+    Neighbor neighbor() const { return neighbor_; }
+
+  private:
+    Neighbor neighbor_{0, std::numeric_limits<float>::max()};
+    float limit_ = std::numeric_limits<float>::max();
 };
 
 /// Collects everything within a radius; nanoflann's result-set contract.
@@ -71,14 +100,14 @@ class RadiusSet {
     using DistanceType = float;
 
     RadiusSet(std::vector<Neighbor>& neighbors, float squared_radius)
-        : neighbors_(neighbors), squared_radius_(squared_radius) {
+        : neighbors_(neighbors),
+          squared_radius_(squared_radius),
+          limit_(just_above(squared_radius)) {
         neighbors_.clear();
     }
     bool full() const { return true; }
     std::size_t size() const { return neighbors_.size(); }
-    float worstDist() const {
-        return std::nextafter(squared_radius_, std::numeric_limits<float>::max());
-    }
+    float worstDist() const { return limit_; }
     bool addPoint(float squared_distance, std::uint32_t index) {
         if (squared_distance <= squared_radius_) neighbors_.push_back({index, squared_distance});
         return true;
@@ -87,6 +116,7 @@ class RadiusSet {
   private:
     std::vector<Neighbor>& neighbors_;
     float squared_radius_;
+    float limit_;
 };
 
 }  // namespace
@@ -126,9 +156,9 @@ void SearchTree::within_radius(const Eigen::Vector3f& query, double radius,
 }
 
 Neighbor SearchTree::nearest(const Eigen::Vector3f& query) const {
-    std::vector<Neighbor> neighbors;
-    nearest(query, 1, neighbors);
-    return neighbors.front();
+    NearestOne set;
+    index_->tree.findNeighbors(set, query.data(), nanoflann::SearchParams());
+    return set.neighbor();
 }
 
 }  // namespace roomscribe

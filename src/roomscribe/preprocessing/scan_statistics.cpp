@@ -18,7 +18,7 @@ namespace {
 /// Enough neighbours to leave a single scan line, few enough to stay on one surface.
 constexpr std::size_t num_neighbors = 24;
 
-/// The surface is sampled by about this many cells along the diagonal: some thousand samples.
+/// The surface is cut into cells, about this many along the diagonal.
 constexpr double cells_along_extent = 60.0;
 
 /// At least this share of a scan's surface is smooth (floor, ceiling, walls): the quantile of the
@@ -44,18 +44,42 @@ double middle_extent(const std::vector<Eigen::Vector3f>& points) {
     return size.norm();
 }
 
+/// Places to measure at, spread over the surface, and the points around them.
+struct SurfaceSamples {
+    std::vector<Eigen::Vector3f> places;
+    std::vector<Eigen::Vector3f> points;
+};
+
 /// One point per occupied cell of a coarse grid, so that the dense zone near the scanner does not
-/// decide.
-std::vector<std::uint32_t> sample_surface(const PointCloud& cloud, double extent,
-                                          const Context& context) {
-    const VoxelGrid grid =
-        downsample_voxel_grid(cloud, {.voxel_size = extent / cells_along_extent}, context);
-    std::vector<std::uint32_t> sample(grid.cloud.size(), no_voxel);
-    for (std::uint32_t i = 0; i < cloud.size(); ++i) {
-        const std::uint32_t voxel = grid.voxel_of_point[i];
-        if (voxel != no_voxel && sample[voxel] == no_voxel) sample[voxel] = i;
+/// decide. Of a large cloud only the surroundings of some cells are kept: a tree over all points
+/// would cost more than everything else.
+SurfaceSamples sample_surface(const PointCloud& cloud, double cell_size, const Context& context) {
+    constexpr std::size_t max_samples = 1000;
+    const VoxelGrid cells = downsample_voxel_grid(cloud, {.voxel_size = cell_size}, context);
+    const std::size_t num_cells = cells.cloud.size();
+    const std::size_t stride = std::max<std::size_t>(1, num_cells / max_samples);
+
+    // All neighbours that count lie within a cell's size of the place (see estimate_scan_statistics).
+    const double reach = 2.0 * std::sqrt(3.0) * cell_size;
+    const SearchTree tree(cells.cloud.positions);
+    std::vector<bool> is_near(num_cells, stride == 1);
+    std::vector<Neighbor> around;
+    for (std::size_t cell = 0; stride > 1 && cell < num_cells; cell += stride) {
+        tree.within_radius(cells.cloud.positions[cell], reach, around);
+        for (const Neighbor& neighbor : around) is_near[neighbor.index] = true;
     }
-    return sample;
+
+    SurfaceSamples samples;
+    std::vector<bool> is_sampled(num_cells, false);
+    for (std::size_t i = 0; i < cloud.size(); ++i) {
+        const std::uint32_t cell = cells.voxel_of_point[i];
+        if (cell == no_voxel || !is_near[cell]) continue;
+        samples.points.push_back(cloud.positions[i]);
+        if (cell % stride != 0 || is_sampled[cell]) continue;
+        is_sampled[cell] = true;
+        samples.places.push_back(cloud.positions[i]);
+    }
+    return samples;
 }
 
 struct LocalMeasures {
@@ -100,21 +124,19 @@ ScanStatistics estimate_scan_statistics(const PointCloud& cloud, const Context& 
     statistics.extent = middle_extent(points);
     if (statistics.extent <= 0.0) return statistics;
 
-    PointCloud finite;
-    finite.positions = std::move(points);
-    const std::vector<std::uint32_t> sample = sample_surface(finite, statistics.extent, context);
-    const SearchTree tree(finite.positions);
-    std::vector<LocalMeasures> measures(sample.size());
-    parallel_for(context, sample.size(), 128, [&](std::size_t begin, std::size_t end) {
+    const double cell_size = statistics.extent / cells_along_extent;
+    const SurfaceSamples samples = sample_surface(cloud, cell_size, context);
+    const SearchTree tree(samples.points);
+    std::vector<LocalMeasures> measures(samples.places.size());
+    parallel_for(context, samples.places.size(), 64, [&](std::size_t begin, std::size_t end) {
         std::vector<Neighbor> neighbors;
         for (std::size_t i = begin; i < end; ++i) {
-            measures[i] = measure(finite.positions, tree, finite.positions[sample[i]], neighbors);
+            measures[i] = measure(samples.points, tree, samples.places[i], neighbors);
         }
     });
 
     // Stray returns far out (beyond a window, at the end of the scanner's range) fill cells of their
     // own, but no surface. They count only if nearly everything is as thin.
-    const double cell_size = statistics.extent / cells_along_extent;
     const auto is_surface = [&](const LocalMeasures& local) { return local.reach <= cell_size; };
     const auto num_surface = std::count_if(measures.begin(), measures.end(), is_surface);
     if (10 * static_cast<std::size_t>(num_surface) >= measures.size()) {

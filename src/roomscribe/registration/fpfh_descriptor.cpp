@@ -56,16 +56,29 @@ void add_to(Histogram& histogram, const PairAngles& angles, float increment) {
     histogram[2 * fpfh_bins_per_angle + bin_of((angles.theta + 1.0F) * 0.5F)] += increment;
 }
 
-/// Which points a histogram is needed for: the keypoints and all their neighbours.
-std::vector<std::uint32_t> points_around(std::span<const std::vector<Neighbor>> neighborhoods,
-                                         std::size_t num_points) {
-    std::vector<bool> needed(num_points, false);
-    for (const auto& neighborhood : neighborhoods) {
-        for (const Neighbor& neighbor : neighborhood) needed[neighbor.index] = true;
+using Neighborhoods = std::vector<std::vector<Neighbor>>;
+
+void find_neighborhoods(std::span<const Eigen::Vector3f> positions, const SearchTree& tree,
+                        std::span<const std::uint32_t> points, double radius,
+                        const Context& context, Neighborhoods& neighborhoods) {
+    parallel_for(context, points.size(), 64, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            tree.within_radius(positions[points[i]], radius, neighborhoods[points[i]]);
+        }
+    });
+}
+
+/// The neighbours of the keypoints that are no keypoints themselves. (A point that was searched
+/// around has at least itself as a neighbour.)
+std::vector<std::uint32_t> points_around(std::span<const std::uint32_t> keypoints,
+                                         const Neighborhoods& neighborhoods) {
+    std::vector<bool> needed(neighborhoods.size(), false);
+    for (const std::uint32_t keypoint : keypoints) {
+        for (const Neighbor& neighbor : neighborhoods[keypoint]) needed[neighbor.index] = true;
     }
     std::vector<std::uint32_t> points;
-    for (std::uint32_t i = 0; i < num_points; ++i) {
-        if (needed[i]) points.push_back(i);
+    for (std::uint32_t i = 0; i < neighborhoods.size(); ++i) {
+        if (needed[i] && neighborhoods[i].empty()) points.push_back(i);
     }
     return points;
 }
@@ -108,21 +121,16 @@ FpfhDescriptors compute_fpfh(std::span<const Eigen::Vector3f> positions,
                              std::span<const std::uint32_t> keypoints, const FpfhSettings& settings,
                              const Context& context) {
     check_settings(settings);
-    std::vector<std::vector<Neighbor>> neighborhoods(keypoints.size());
-    parallel_for(context, keypoints.size(), 64, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) {
-            tree.within_radius(positions[keypoints[i]], settings.radius, neighborhoods[i]);
-        }
-    });
+    Neighborhoods neighborhoods(positions.size());
+    find_neighborhoods(positions, tree, keypoints, settings.radius, context, neighborhoods);
+    find_neighborhoods(positions, tree, points_around(keypoints, neighborhoods), settings.radius,
+                       context, neighborhoods);
 
-    const std::vector<std::uint32_t> support = points_around(neighborhoods, positions.size());
     std::vector<Histogram> histograms(positions.size());
-    parallel_for(context, support.size(), 64, [&](std::size_t begin, std::size_t end) {
-        std::vector<Neighbor> neighborhood;
+    parallel_for(context, positions.size(), 64, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
-            tree.within_radius(positions[support[i]], settings.radius, neighborhood);
-            histograms[support[i]] =
-                simplified_histogram(positions, normals, support[i], neighborhood);
+            histograms[i] = simplified_histogram(positions, normals, static_cast<std::uint32_t>(i),
+                                                 neighborhoods[i]);
         }
     });
 
@@ -130,7 +138,7 @@ FpfhDescriptors compute_fpfh(std::span<const Eigen::Vector3f> positions,
     parallel_for(context, keypoints.size(), 64, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             descriptors.col(static_cast<Eigen::Index>(i)) =
-                weighted_histogram(neighborhoods[i], histograms);
+                weighted_histogram(neighborhoods[keypoints[i]], histograms);
         }
     });
     return descriptors;

@@ -83,11 +83,9 @@ PairSums gather_pairs(const IcpSource& source, const IcpTarget& target,
     const double min_cosine = std::cos(std::min(settings.max_normal_angle, 3.1415));
     const auto gather = [&](std::size_t begin, std::size_t end) {
         PairSums sums;
-        std::vector<Neighbor> nearest;
         for (std::size_t i = begin; i < end; ++i) {
             const Eigen::Vector3d moved = target_from_source * source.positions[i].cast<double>();
-            target.tree.nearest(moved.cast<float>(), 1, nearest);
-            const Neighbor neighbor = nearest.front();
+            const Neighbor neighbor = target.tree.nearest(moved.cast<float>());
             if (neighbor.squared_distance > max_squared_distance) continue;
             if (with_normals) {
                 const Eigen::Vector3d turned =

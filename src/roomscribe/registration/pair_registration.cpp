@@ -235,16 +235,14 @@ enum class PointFate : std::uint8_t { unknown, confirmed, displaced, contradicte
 
 /// What becomes of one oriented point in the frame of the scan that judges it.
 PointFate judge_point(const PreparedScan& judge, const Eigen::Vector3d& place,
-                      const Eigen::Vector3d& normal, const RegistrationScale& scale,
-                      std::vector<Neighbor>& nearest) {
+                      const Eigen::Vector3d& normal, const RegistrationScale& scale) {
     // Centroids of the same surface in two voxel grids lie within one and a half voxels, and within a
     // quarter of a voxel of each other's plane.
     const double reach = 1.5 * scale.coarse_voxel;
     const double max_off_plane = 0.25 * scale.coarse_voxel;
     const double min_cosine = std::cos(radians(45.0));
-    judge.coarse.tree.nearest(place.cast<float>(), 1, nearest);
-    if (nearest.front().squared_distance <= reach * reach) {
-        const std::uint32_t index = nearest.front().index;
+    const auto [index, squared_distance] = judge.coarse.tree.nearest(place.cast<float>());
+    if (squared_distance <= reach * reach) {
         const Eigen::Vector3d judge_normal = judge.coarse.normals[index].cast<double>();
         if (!(normal.dot(judge_normal) >= min_cosine)) return PointFate::unknown;
         const double off_plane =
@@ -271,11 +269,10 @@ PoseSupport measure_one_way(const PreparedScan& seen, const PreparedScan& judge,
                             const Context& context) {
     const auto judge_points = [&](std::size_t begin, std::size_t end) {
         PoseSupport support;
-        std::vector<Neighbor> nearest;
         for (std::size_t i = begin; i < end; ++i) {
             const PointFate fate = judge_point(
                 judge, judge_from_seen * seen.sample.positions[i].cast<double>(),
-                judge_from_seen.linear() * seen.sample.normals[i].cast<double>(), scale, nearest);
+                judge_from_seen.linear() * seen.sample.normals[i].cast<double>(), scale);
             ++support.total;
             if (fate == PointFate::confirmed) ++support.confirmed;
             if (fate == PointFate::displaced) ++support.displaced;
