@@ -29,6 +29,10 @@ std::string describe_choices(std::span<const std::string_view> names) {
 /// Keeps the full name of the setting that is being visited.
 class NamedVisitor : public SettingVisitor {
   protected:
+    void check_range(double value, const SettingInfo& info) const {
+        if (std::isfinite(value) && value >= info.min && value <= info.max) return;
+        throw InvalidArgument(full_name(info), fmt::format("{}", value), describe_range(info));
+    }
     void enter_group(std::string_view name) override {
         prefix_lengths_.push_back(prefix_.size());
         prefix_ += std::string(name) + ".";
@@ -74,15 +78,11 @@ class Lister : public NamedVisitor {
 
 class Checker : public NamedVisitor {
   private:
-    void check(double value, const SettingInfo& info) const {
-        if (std::isfinite(value) && value >= info.min && value <= info.max) return;
-        throw InvalidArgument(full_name(info), fmt::format("{}", value), describe_range(info));
-    }
     void visit_bool(bool&, const SettingInfo&) override {}
-    void visit_int(int& value, const SettingInfo& info) override { check(value, info); }
-    void visit_real(double& value, const SettingInfo& info) override { check(value, info); }
+    void visit_int(int& value, const SettingInfo& info) override { check_range(value, info); }
+    void visit_real(double& value, const SettingInfo& info) override { check_range(value, info); }
     void visit_optional(std::optional<double>& value, const SettingInfo& info) override {
-        if (value) check(*value, info);
+        if (value) check_range(*value, info);
     }
     void visit_choice(std::size_t& index, std::span<const std::string_view> names,
                       const SettingInfo& info) override {
@@ -113,24 +113,29 @@ class Setter : public NamedVisitor {
     [[noreturn]] void refuse(std::string_view allowed) const {
         throw InvalidArgument(name_, text_, allowed);
     }
+    /// A number that parses and is in range: the setting takes no other.
+    template <typename Number>
+    Number parse(const SettingInfo& info, std::string_view allowed) const {
+        Number number{};
+        if (!parse_number(text_, number)) refuse(allowed);
+        check_range(number, info);
+        return number;
+    }
     void visit_bool(bool& value, const SettingInfo& info) override {
         if (!matches(info)) return;
         if (text_ != "true" && text_ != "false") refuse("true or false");
         value = text_ == "true";
     }
     void visit_int(int& value, const SettingInfo& info) override {
-        if (matches(info) && !parse_number(text_, value)) refuse("a whole number");
+        if (matches(info)) value = parse<int>(info, "a whole number");
     }
     void visit_real(double& value, const SettingInfo& info) override {
-        if (matches(info) && !parse_number(text_, value)) refuse("a number");
+        if (matches(info)) value = parse<double>(info, "a number");
     }
     void visit_optional(std::optional<double>& value, const SettingInfo& info) override {
         if (!matches(info)) return;
-        value.reset();
-        if (text_ == "auto") return;
-        double number = 0.0;
-        if (!parse_number(text_, number)) refuse("a number or auto");
-        value = number;
+        value = text_ == "auto" ? std::nullopt
+                                : std::optional(parse<double>(info, "a number or auto"));
     }
     void visit_choice(std::size_t& index, std::span<const std::string_view> names,
                       const SettingInfo& info) override {
@@ -149,15 +154,21 @@ class Setter : public NamedVisitor {
 std::size_t edit_distance(std::string_view a, std::string_view b) {
     std::vector<std::size_t> row(b.size() + 1);
     std::iota(row.begin(), row.end(), std::size_t{0});
-    for (std::size_t i = 0; i < a.size(); ++i) {
+    for (const char letter : a) {
         std::size_t diagonal = row[0]++;
         for (std::size_t j = 0; j < b.size(); ++j) {
-            const std::size_t substitution = diagonal + (a[i] == b[j] ? 0U : 1U);
+            const std::size_t substitution = diagonal + (letter == b[j] ? 0U : 1U);
             diagonal = row[j + 1];
             row[j + 1] = std::min({row[j + 1] + 1, row[j] + 1, substitution});
         }
     }
     return row.back();
+}
+
+/// People leave out the groups: the last part of a name may stand for the whole.
+std::size_t name_distance(std::string_view known, std::string_view name) {
+    return std::min(edit_distance(known, name),
+                    edit_distance(known.substr(known.rfind('.') + 1), name));
 }
 
 }  // namespace
@@ -176,14 +187,13 @@ void set_setting(void* settings, VisitSettings visit, std::string_view name,
         const std::vector<SettingEntry> known = list_settings(settings, visit);
         const auto nearest = std::min_element(
             known.begin(), known.end(), [&](const SettingEntry& a, const SettingEntry& b) {
-                return edit_distance(a.name, name) < edit_distance(b.name, name);
+                return name_distance(a.name, name) < name_distance(b.name, name);
             });
         throw InvalidArgument("setting", name,
                               nearest == known.end()
                                   ? "a known setting"
                                   : fmt::format("a known setting (did you mean {}?)", nearest->name));
     }
-    check_settings(settings, visit);
 }
 
 void check_settings(void* settings, VisitSettings visit) {

@@ -46,7 +46,8 @@ class Xxh64 {
             add_stripe(pending_.data());
             num_pending_ = 0;
         }
-        for (; bytes.size() >= stripe; bytes = bytes.subspan(stripe)) add_stripe(bytes.data());
+        for (; bytes.size() >= stripe; bytes = bytes.subspan(stripe))
+            add_stripe(bytes.data());
         std::copy(bytes.begin(), bytes.end(), pending_.begin());
         num_pending_ = bytes.size();
     }
@@ -115,7 +116,8 @@ std::uint64_t hash_file(const std::filesystem::path& path) {
         hash.add(std::as_bytes(std::span(piece).first(static_cast<std::size_t>(file.gcount()))));
     }
     if (!file.eof()) {
-        throw IoError(path.string(), "", {}, "cannot be read", "check the path and its permissions");
+        throw IoError(path.string(), "", {}, "cannot be read",
+                      "check the path and its permissions");
     }
     return hash.finish();
 }

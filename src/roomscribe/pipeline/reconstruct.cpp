@@ -3,18 +3,72 @@
 
 #include <utility>
 
+#include "roomscribe/structure/plane_growing.hpp"
+#include "roomscribe/structure/plane_ransac.hpp"
+
 namespace roomscribe {
+namespace {
+
+std::uint64_t seed_of(const PipelineSettings& settings) {
+    return static_cast<std::uint64_t>(settings.seed);
+}
+
+std::vector<PlanarPatch> find_planes(const SurfaceSample& sample, const PipelineSettings& settings,
+                                     const Context& context) {
+    if (settings.structure.plane_method == PlaneMethod::ransac) {
+        return detect_planes_ransac(sample.cloud, seed_of(settings),
+                                    {.distance_tolerance = sample.tolerance,
+                                     .min_inliers = settings.structure.min_plane_inliers,
+                                     .consensus = {}},
+                                    context)
+            .planes;
+    }
+    return grow_planar_patches(
+        sample.cloud,
+        {.distance_tolerance = sample.tolerance, .cell_size = 2.0 * sample.spacing}, context);
+}
+
+PrincipalAxes find_axes(const ScanMap& map, const SurfaceSample& sample,
+                        std::span<const PlanarPatch> patches, const PipelineSettings& settings,
+                        const Context& context) {
+    if (settings.structure.axes_method == AxesMethod::algorithm_2) {
+        PaperAxesSettings paper;
+        paper.planes.distance_tolerance = sample.tolerance;
+        paper.planes.min_inliers = settings.structure.min_plane_inliers;
+        return estimate_principal_axes_paper(map.cloud, seed_of(settings), paper, context);
+    }
+    return estimate_principal_axes(patches, settings.structure.axes, context);
+}
+
+void add_derived_values(std::vector<DerivedValue>& derived, const ScanStatistics& statistics,
+                        const SurfaceSample& sample, const StructureSettings& settings) {
+    derived.push_back({"structure.point_spacing", statistics.point_spacing, "m",
+                       "distance of neighbouring points of the map, median over its surface"});
+    derived.push_back({"structure.noise", statistics.noise, "m",
+                       "residuals of smooth surface of the map"});
+    derived.push_back({"structure.voxel_size", sample.voxel_size, "m",
+                       settings.sample.voxel_size ? "set by hand"
+                                                  : "half the point spacing, at least 0.04 m"});
+    derived.push_back({"structure.plane_tolerance", sample.tolerance, "m",
+                       settings.plane_tolerance
+                           ? "set by hand"
+                           : "three times the noise and the evenness of finished walls"});
+}
+
+}  // namespace
 
 Reconstruction register_to_map(std::span<const Scan> scans, const PipelineSettings& settings,
                                const Context& context) {
+    check_settings(settings);
     Reconstruction result;
     StageTimer timer(result.stage_costs);
+
     ScanRegistration registration =
-        register_scans(scans, static_cast<std::uint64_t>(settings.seed), settings.registration,
-                       context);
+        register_scans(scans, seed_of(settings), settings.registration, context);
     timer.finish("register");
     result.map = merge_scans(scans, registration.registration.map_from_scan);
     timer.finish("merge");
+
     result.registration = std::move(registration.registration);
     result.derived_values = std::move(registration.derived_values);
     return result;
@@ -23,10 +77,37 @@ Reconstruction register_to_map(std::span<const Scan> scans, const PipelineSettin
 void interpret_map(Reconstruction& reconstruction, const PipelineSettings& settings,
                    const Context& context) {
     check_settings(settings);
-    context.throw_if_cancelled();
-    reconstruction.labels.labels.assign(reconstruction.map.cloud.size(), Label::unknown);
-    reconstruction.labels.instances.assign(reconstruction.map.cloud.size(), -1);
-    reconstruction.labels.confidences.assign(reconstruction.map.cloud.size(), 0.0F);
+    const ScanMap& map = reconstruction.map;
+    StageTimer timer(reconstruction.stage_costs);
+    const auto finish = [&](const char* stage, double fraction) {
+        timer.finish(stage);
+        context.report_progress("interpret", fraction);
+        context.throw_if_cancelled();
+    };
+
+    const ScanStatistics statistics = estimate_scan_statistics(map.cloud, context);
+    SurfaceSample sample = sample_surface(map, statistics, settings.structure.sample, context);
+    sample.tolerance = settings.structure.plane_tolerance.value_or(sample.tolerance);
+    finish("sample surface", 0.4);
+    const std::vector<PlanarPatch> patches = find_planes(sample, settings, context);
+    finish("planes", 0.7);
+    const PrincipalAxes axes = find_axes(map, sample, patches, settings, context);
+    finish("principal axes", 0.75);
+    const Upright upright =
+        find_upright(sample, patches, axes, settings.interpretation.upright, context);
+    finish("upright", 0.8);
+    RoomSurfaces surfaces = find_room_surfaces(sample, patches, upright,
+                                               settings.interpretation.surfaces, context);
+    finish("floor, ceiling, walls", 0.9);
+    reconstruction.labels = label_points(map.cloud, sample, patches, surfaces,
+                                         settings.interpretation.labels, context);
+    finish("point labels", 1.0);
+
+    reconstruction.scene.room_from_map = surfaces.room_from_map;
+    for (RoomSurface& surface : surfaces.surfaces) {
+        reconstruction.scene.components.push_back(std::move(surface.component));
+    }
+    add_derived_values(reconstruction.derived_values, statistics, sample, settings.structure);
 }
 
 Reconstruction reconstruct(std::span<const Scan> scans, const PipelineSettings& settings,

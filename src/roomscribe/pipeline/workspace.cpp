@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "roomscribe/pipeline/workspace.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <nlohmann/json.hpp>
 #include <system_error>
 #include <utility>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "roomscribe/core/error.hpp"
 #include "roomscribe/export/json.hpp"
@@ -30,15 +30,16 @@ Transform in_file_coordinates(const Transform& target_from_source,
 
 Scene in_file_coordinates(Scene scene, const Eigen::Vector3d& shift) {
     const auto move = [&shift](std::vector<Eigen::Vector3d>& polygon) {
-        for (Eigen::Vector3d& corner : polygon) corner += shift;
+        for (Eigen::Vector3d& corner : polygon)
+            corner += shift;
     };
     for (Component& component : scene.components) {
         move(component.polygon);
         if (component.box) component.box->center += shift;
     }
-    for (Room& room : scene.rooms) move(room.polygon);
-    scene.room_from_map =
-        in_file_coordinates(scene.room_from_map, Eigen::Vector3d::Zero(), shift);
+    for (Room& room : scene.rooms)
+        move(room.polygon);
+    scene.room_from_map = in_file_coordinates(scene.room_from_map, Eigen::Vector3d::Zero(), shift);
     return scene;
 }
 
@@ -54,7 +55,8 @@ void add_channel(PointCloud& cloud, const std::string& name, ScalarType type,
         if (channel.name != name) continue;
         // The input has a property of that name, a truth say: it is carried through renamed.
         std::string free_name = "input_" + name;
-        while (has_channel(cloud, free_name)) free_name.insert(0, "input_");
+        while (has_channel(cloud, free_name))
+            free_name.insert(0, "input_");
         channel.name = free_name;
     }
     const auto bytes = std::as_bytes(std::span(values));
@@ -81,8 +83,8 @@ Json nested_settings(std::span<const SettingEntry> settings) {
     for (const SettingEntry& setting : settings) {
         std::string pointer = "/" + setting.name;
         std::replace(pointer.begin(), pointer.end(), '.', '/');
-        const Json value = setting.is_text ? Json(setting.value)
-                                           : Json::parse(setting.value, nullptr, false);
+        const Json value =
+            setting.is_text ? Json(setting.value) : Json::parse(setting.value, nullptr, false);
         nested[Json::json_pointer(pointer)] = value.is_discarded() ? Json(setting.value) : value;
     }
     return nested;
@@ -167,9 +169,8 @@ std::string run_to_json(const RunRecord& record, const Reconstruction& reconstru
     }
     json["stages"] = Json::array();
     for (const StageCost& cost : reconstruction.stage_costs) {
-        json["stages"].push_back({{"stage", cost.stage},
-                                  {"seconds", cost.seconds},
-                                  {"peak_memory", cost.peak_memory}});
+        json["stages"].push_back(
+            {{"stage", cost.stage}, {"seconds", cost.seconds}, {"peak_memory", cost.peak_memory}});
     }
     return lay_out_json(json.dump(-1, ' ', false, Json::error_handler_t::replace));
 }

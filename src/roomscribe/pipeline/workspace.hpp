@@ -23,8 +23,8 @@ struct InputFile {
 
 /// What is to be known of a run beside its results.
 struct RunRecord {
-    std::string version;  ///< of the program
-    std::string command;  ///< "run", "register", "interpret"
+    std::string version;                 ///< of the program
+    std::string command;                 ///< "run", "register", "interpret"
     std::vector<SettingEntry> settings;  ///< list_settings(PipelineSettings)
     std::vector<InputFile> inputs;       ///< in input order
     int num_threads = 0;                 ///< that the run used
@@ -37,10 +37,10 @@ InputFile describe_input(const std::filesystem::path& path);
 /// the work starts, so that a long run does not end without a place for its result. Throws IoError.
 void prepare_output_folder(const std::filesystem::path& folder);
 
-// Each of the following writes into an existing folder the files of docs/formats.md, every one under
-// a temporary name that is then renamed: a killed run leaves whole files or none. All coordinates in
-// files are file coordinates, global shifts included. They throw IoError if a file cannot be
-// written.
+// Each of the following writes into an existing folder the files of docs/formats.md, every one
+// under a temporary name that is then renamed: a killed run leaves whole files or none. All
+// coordinates in files are file coordinates, global shifts included. They throw IoError if a file
+// cannot be written.
 
 /// poses.txt, registration.json and map.ply. `scans` are those that the map was made of.
 /// Preconditions: reconstruction.registration holds, with one pose slot per scan.

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "roomscribe/model/registration_result.hpp"
+#include "roomscribe/model/scene.hpp"
+
+namespace roomscribe {
+
+/// scene.json (docs/formats.md): accepted and doubtful components; rejected ones are left out. A
+/// key whose value would be empty is left out too. Lengths are rounded to 1e-6 m, directions to
+/// 1e-9. The same scene gives the same text. Throws InvalidArgument if a number is not finite.
+std::string scene_to_json(const Scene& scene);
+
+/// Reads what scene_to_json writes; unknown keys are ignored, what is absent keeps its default.
+/// Throws IoError, which names `path`, for text that is not JSON or not a scene of version 1: with
+/// the byte, or with the place as in components[3].polygon[0].
+Scene scene_from_json(std::string_view text, const std::string& path = "scene.json");
+
+/// registration.json: every link, and per scan its name, whether it has a place, and its residual.
+/// Covariances are of (rotation vector, translation) of target_from_source, rad2 / rad m / m2.
+/// Poses are between the scans' own coordinates less their global shifts. A residual that is not
+/// finite is null. Precondition: one name per scan.
+std::string registration_to_json(const Registration& registration,
+                                 std::span<const std::string> scan_names);
+
+/// Any JSON text, laid out to be read: an array without objects or nested arrays stays on one line,
+/// all else is indented by two blanks. Keys keep their order. Throws InvalidArgument if the text is
+/// not JSON.
+std::string lay_out_json(std::string_view text);
+
+}  // namespace roomscribe

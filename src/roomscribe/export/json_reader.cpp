@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: MIT
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "roomscribe/core/error.hpp"
+#include "roomscribe/export/json.hpp"
+
+namespace roomscribe {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr const char* cure = "write the file with roomscribe, or see docs/formats.md";
+
+/// A value in the document that knows its place, so that a complaint can name it.
+class Node {
+  public:
+    Node(const Json& json, const std::string& path, std::string place)
+        : json_(&json), path_(&path), place_(std::move(place)) {}
+
+    [[noreturn]] void fail(std::string_view reason) const {
+        throw IoError(*path_, "scene JSON", {},
+                      fmt::format("{}: {}", place_.empty() ? "document" : place_, reason), cure);
+    }
+
+    std::optional<Node> find(const char* key) const {
+        if (!json_->is_object()) fail("must be an object");
+        const auto found = json_->find(key);
+        if (found == json_->end()) return std::nullopt;
+        return Node(*found, *path_, place_.empty() ? key : place_ + "." + key);
+    }
+    Node at(const char* key) const {
+        std::optional<Node> node = find(key);
+        if (!node) fail(fmt::format("key \"{}\" is missing", key));
+        return std::move(*node);
+    }
+    std::vector<Node> elements() const {
+        if (!json_->is_array()) fail("must be an array");
+        std::vector<Node> nodes;
+        for (std::size_t i = 0; i < json_->size(); ++i) {
+            nodes.emplace_back((*json_)[i], *path_, fmt::format("{}[{}]", place_, i));
+        }
+        return nodes;
+    }
+    std::vector<Node> elements(std::size_t count) const {
+        std::vector<Node> nodes = elements();
+        if (nodes.size() != count) {
+            fail(fmt::format("has {} elements instead of {}", nodes.size(), count));
+        }
+        return nodes;
+    }
+
+    double number() const {
+        if (!json_->is_number()) fail("must be a number");
+        return json_->get<double>();
+    }
+    template <typename Integer>
+    Integer integer() const {
+        const double value = number();
+        const auto low = static_cast<double>(std::numeric_limits<Integer>::min());
+        const auto high = static_cast<double>(std::numeric_limits<Integer>::max());
+        if (!json_->is_number_integer() || value < low || value > high) {
+            fail("must be a whole number in range");
+        }
+        return json_->get<Integer>();
+    }
+    std::string text() const {
+        if (!json_->is_string()) fail("must be a text");
+        return json_->get<std::string>();
+    }
+
+  private:
+    const Json* json_;
+    const std::string* path_;
+    std::string place_;
+};
+
+void read(const Node& node, double& value) {
+    value = node.number();
+}
+void read(const Node& node, std::optional<double>& value) {
+    value = node.number();
+}
+void read(const Node& node, std::string& value) {
+    value = node.text();
+}
+void read(const Node& node, std::int32_t& value) {
+    value = node.integer<std::int32_t>();
+}
+void read(const Node& node, std::uint64_t& value) {
+    value = node.integer<std::uint64_t>();
+}
+void read(const Node& node, Eigen::Vector3d& value) {
+    const std::vector<Node> elements = node.elements(3);
+    value = {elements[0].number(), elements[1].number(), elements[2].number()};
+}
+template <typename Value>
+void read(const Node& node, std::vector<Value>& values) {
+    values.clear();
+    for (const Node& element : node.elements())
+        read(element, values.emplace_back());
+}
+
+void read(const Node& node, Label& label) {
+    const std::optional<Label> known = label_from_name(node.text());
+    if (!known) node.fail("\"" + node.text() + "\" is not a label");
+    label = *known;
+}
+
+void read(const Node& node, Verdict& verdict) {
+    for (const Verdict known : {Verdict::accepted, Verdict::doubtful, Verdict::rejected}) {
+        if (verdict_name(known) != node.text()) continue;
+        verdict = known;
+        return;
+    }
+    node.fail("\"" + node.text() + "\" is not a verdict");
+}
+
+void read(const Node& node, Transform& transform) {
+    const std::vector<Node> rows = node.elements(4);
+    Eigen::Matrix4d matrix;
+    for (Eigen::Index row = 0; row < 4; ++row) {
+        const std::vector<Node> numbers = rows[static_cast<std::size_t>(row)].elements(4);
+        for (Eigen::Index column = 0; column < 4; ++column) {
+            matrix(row, column) = numbers[static_cast<std::size_t>(column)].number();
+        }
+    }
+    const Eigen::Matrix3d rotation = matrix.topLeftCorner<3, 3>();
+    const bool is_rigid = (rotation.transpose() * rotation).isIdentity(1e-3) &&
+                          rotation.determinant() > 0.0 &&
+                          matrix.row(3).isApprox(Eigen::RowVector4d::UnitW());
+    if (!is_rigid) node.fail("is not a rigid motion");
+    transform.matrix() = matrix;
+}
+
+/// Leaves the value as it is where the key is absent.
+template <typename Value>
+void read_if_present(const Node& object, const char* key, Value& value) {
+    if (const std::optional<Node> node = object.find(key)) read(*node, value);
+}
+
+void read(const Node& node, OrientedBox& box) {
+    read(node.at("center"), box.center);
+    read(node.at("size"), box.size);
+    const std::vector<Node> axes = node.at("axes").elements(3);
+    for (std::size_t i = 0; i < 3; ++i)
+        read(axes[i], box.axes[i]);
+}
+
+void read(const Node& node, Evidence& evidence) {
+    read_if_present(node, "rule", evidence.rule);
+    read_if_present(node, "points", evidence.points);
+    read_if_present(node, "coverage", evidence.coverage);
+    read_if_present(node, "occluded", evidence.occluded);
+    read_if_present(node, "rms", evidence.rms);
+    read_if_present(node, "alternative", evidence.alternative);
+}
+
+void read(const Node& node, Component& component) {
+    read(node.at("id"), component.id);
+    read(node.at("label"), component.label);
+    read_if_present(node, "kind", component.kind);
+    read_if_present(node, "instance", component.instance);
+    read_if_present(node, "parent", component.parent);
+    read_if_present(node, "polygon", component.polygon);
+    if (const std::optional<Node> box = node.find("box")) read(*box, component.box.emplace());
+    read_if_present(node, "confidence", component.confidence);
+    read_if_present(node, "verdict", component.verdict);
+    read_if_present(node, "evidence", component.evidence);
+}
+
+void read(const Node& node, RoomNeighbor& neighbor) {
+    read(node.at("room"), neighbor.room);
+    read_if_present(node, "through", neighbor.through);
+}
+
+void read(const Node& node, Room& room) {
+    read(node.at("id"), room.id);
+    read_if_present(node, "polygon", room.polygon);
+    read_if_present(node, "floor_height", room.floor_height);
+    read_if_present(node, "ceiling_height", room.ceiling_height);
+    read_if_present(node, "area", room.area);
+    read_if_present(node, "volume", room.volume);
+    read_if_present(node, "walls", room.walls);
+    read_if_present(node, "neighbours", room.neighbors);
+}
+
+Json parse(std::string_view text, const std::string& path) {
+    try {
+        return Json::parse(text);
+    } catch (const Json::parse_error& error) {
+        throw IoError(path, "scene JSON", {.byte = error.byte, .line = {}}, "is not valid JSON",
+                      cure);
+    }
+}
+
+}  // namespace
+
+Scene scene_from_json(std::string_view text, const std::string& path) {
+    const Json json = parse(text, path);
+    const Node document(json, path, "");
+    if (document.at("format").text() != "roomscribe-scene") {
+        document.fail("format is not roomscribe-scene");
+    }
+    if (document.at("version").integer<int>() != 1) document.fail("version is not 1");
+
+    Scene scene;
+    read_if_present(document, "to_room", scene.room_from_map);
+    read_if_present(document, "components", scene.components);
+    read_if_present(document, "rooms", scene.rooms);
+    return scene;
+}
+
+}  // namespace roomscribe

@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: MIT
+#include "roomscribe/report/html_report.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "roomscribe/core/units.hpp"
+#include "roomscribe/io/atomic_file.hpp"
+#include "roomscribe/report/html_text.hpp"
+#include "roomscribe/report/report_figures.hpp"
+#include "roomscribe/report/report_style.hpp"
+#include "roomscribe/report/report_tables.hpp"
+#include "roomscribe/report/report_views.hpp"
+
+namespace roomscribe {
+namespace {
+
+std::string counted(std::size_t count, std::string_view one) {
+    return fmt::format("{} {}{}", with_separators(count), one, count == 1 ? "" : "s");
+}
+
+std::size_t num_listed(const Scene& scene) {
+    return static_cast<std::size_t>(std::count_if(
+        scene.components.begin(), scene.components.end(),
+        [](const Component& component) { return component.verdict != Verdict::rejected; }));
+}
+
+std::size_t num_placed(const Registration& registration) {
+    return static_cast<std::size_t>(
+        std::count_if(registration.map_from_scan.begin(), registration.map_from_scan.end(),
+                      [](const auto& pose) { return pose.has_value(); }));
+}
+
+double total_seconds(const Reconstruction& reconstruction) {
+    double sum = 0.0;
+    for (const StageCost& cost : reconstruction.stage_costs)
+        sum += cost.seconds;
+    return sum;
+}
+
+/// The result in two sentences.
+std::string lead(const Reconstruction& reconstruction) {
+    const std::string points = counted(reconstruction.map.cloud.size(), "point");
+    std::string text;
+    if (reconstruction.registration) {
+        const Registration& registration = *reconstruction.registration;
+        const std::size_t num_scans = registration.map_from_scan.size();
+        const std::size_t placed = num_placed(registration);
+        text = placed == num_scans
+                   ? fmt::format("{} with {} in one map.", counted(num_scans, "scan"), points)
+                   : fmt::format("{} of {} with {} in one map.", placed, counted(num_scans, "scan"),
+                                 points);
+    } else {
+        text = fmt::format("A map of {}.", points);
+    }
+    if (has_labels(reconstruction)) {
+        text +=
+            fmt::format(" It shows {} with {}.", counted(reconstruction.scene.rooms.size(), "room"),
+                        counted(num_listed(reconstruction.scene), "component"));
+    }
+    return text;
+}
+
+std::string key_figure(std::string_view name, std::string_view value_html) {
+    return fmt::format("<div><dt>{}</dt><dd>{}</dd></div>\n", name, value_html);
+}
+
+/// "18.4 m2", "2.71 m": of one room, or from the least to the most of several.
+std::string range_of(std::vector<double> values, int decimals, std::string_view unit) {
+    const auto [low, high] = std::minmax_element(values.begin(), values.end());
+    const std::string from = fmt::format("{:.{}f}", *low, decimals);
+    const std::string to = fmt::format("{:.{}f}", *high, decimals);
+    return from == to ? fmt::format("{} <small>{}</small>", from, unit)
+                      : fmt::format("{}&#8211;{} <small>{}</small>", from, to, unit);
+}
+
+/// Floor plan extents of the rooms along the room frame's axes.
+std::string extent_of_rooms(const Scene& scene) {
+    Eigen::AlignedBox3d box;
+    for (const Room& room : scene.rooms) {
+        for (const Eigen::Vector3d& corner : room.polygon) {
+            box.extend(Eigen::Vector3d(scene.room_from_map * corner));
+        }
+    }
+    if (box.isEmpty()) return "&#8211;";
+    return fmt::format("{:.1f}&#8239;&#215;&#8239;{:.1f} <small>m</small>", box.sizes().x(),
+                       box.sizes().y());
+}
+
+std::string key_figures(const Reconstruction& reconstruction) {
+    const Scene& scene = reconstruction.scene;
+    std::string html = "<dl class=\"figures\">\n";
+    if (has_labels(reconstruction)) {
+        if (!scene.rooms.empty()) {
+            double area = 0.0;
+            std::vector<double> heights;
+            for (const Room& room : scene.rooms) {
+                area += room.area;
+                heights.push_back(room.ceiling_height - room.floor_height);
+            }
+            html += key_figure("Floor area", fmt::format("{:.1f} <small>m&#178;</small>", area));
+            html += key_figure("Extent", extent_of_rooms(scene));
+            html += key_figure("Room height", range_of(heights, 2, "m"));
+        }
+        html += key_figure("Components", with_separators(num_listed(scene)));
+        // How far the map's z axis leans from the vertical that was found.
+        const double up = std::clamp(scene.room_from_map.linear()(2, 2), -1.0, 1.0);
+        html += key_figure("Levelled by", fmt::format("{:.1f}&#176;", degrees(std::acos(up))));
+    }
+    if (reconstruction.registration) {
+        const Registration& registration = *reconstruction.registration;
+        html += key_figure("Scans placed",
+                           fmt::format("{} <small>of {}</small>", num_placed(registration),
+                                       registration.map_from_scan.size()));
+    }
+    if (!reconstruction.stage_costs.empty()) {
+        html += key_figure("Computing time",
+                           fmt::format("{:.1f} <small>s</small>", total_seconds(reconstruction)));
+    }
+    return html + "</dl>\n";
+}
+
+std::string scan_name(const ScanMap& map, std::size_t scan) {
+    return scan < map.sections.size() ? fmt::format("{} {}", scan, map.sections[scan].name)
+                                      : fmt::format("{}", scan);
+}
+
+/// What somebody should look at before trusting the result.
+std::vector<std::string> things_to_check(const Reconstruction& reconstruction) {
+    std::vector<std::string> checks;
+    if (reconstruction.registration) {
+        const Registration& registration = *reconstruction.registration;
+        for (std::size_t i = 0; i < registration.map_from_scan.size(); ++i) {
+            if (registration.map_from_scan[i]) continue;
+            checks.push_back(
+                fmt::format("Scan {} has no place in the map.", scan_name(reconstruction.map, i)));
+        }
+        for (const RegistrationLink& link : registration.links) {
+            const std::string pair =
+                fmt::format("scan {} to scan {}", scan_name(reconstruction.map, link.source),
+                            scan_name(reconstruction.map, link.target));
+            if (link.verdict == LinkVerdict::ambiguous) {
+                checks.push_back(
+                    fmt::format("The link from {} is ambiguous: another pose fits as well.", pair));
+            } else if (link.verdict == LinkVerdict::accepted && !link.unobservable.empty()) {
+                checks.push_back(fmt::format("The link from {} leaves {} free.", pair,
+                                             counted(link.unobservable.size(), "direction")));
+            }
+        }
+    }
+    std::string doubtful;
+    for (const Component& component : reconstruction.scene.components) {
+        if (component.verdict != Verdict::doubtful) continue;
+        doubtful += (doubtful.empty() ? "" : ", ") + component.id;
+    }
+    if (!doubtful.empty()) {
+        checks.push_back(fmt::format("Doubtful: {}. The table of components says why.", doubtful));
+    }
+    if (has_labels(reconstruction) && reconstruction.scene.components.empty()) {
+        checks.emplace_back("Nothing was recognised in this map.");
+    }
+    return checks;
+}
+
+std::string check_list(const Reconstruction& reconstruction) {
+    const std::vector<std::string> checks = things_to_check(reconstruction);
+    if (checks.empty()) return {};
+    std::string html = "<section class=\"checks\"><h2>To check</h2><ul>\n";
+    for (const std::string& check : checks)
+        html += "<li>" + escape_html(check) + "</li>\n";
+    return html + "</ul></section>\n";
+}
+
+/// A headed section, or nothing if its content is empty.
+std::string section(std::string_view title, const std::string& content) {
+    if (content.empty()) return {};
+    return fmt::format("<section>\n<h2>{}</h2>\n{}</section>\n", title, content);
+}
+
+std::string pictures(const Reconstruction& reconstruction, std::size_t width,
+                     const Context& context) {
+    if (reconstruction.map.cloud.empty()) return {};
+    std::string html;
+    if (has_labels(reconstruction)) {
+        html += plan_figure(reconstruction, width, context);
+        html += section_figure(reconstruction, width, context);
+    }
+    return html + scans_figure(reconstruction, width, context);
+}
+
+std::string settings_part(const RunRecord& run) {
+    if (run.settings.empty()) return {};
+    const std::string changed = changed_settings_table(run);
+    return changed.empty() ? "<p class=\"note\">All settings have their default values.</p>\n"
+                           : changed;
+}
+
+}  // namespace
+
+std::string render_html_report(const Reconstruction& reconstruction, const ReportInfo& info,
+                               const Context& context) {
+    const std::string title = escape_html(info.title);
+    const RunRecord& run = info.run;
+    std::string html = fmt::format(
+        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n"
+        "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n"
+        "<title>{}</title>\n<style>{}</style>\n</head>\n<body>\n<header>\n<h1>{}</h1>\n"
+        "<p class=\"lead\">{}</p>\n</header>\n<main>\n",
+        title, report_style(), title, lead(reconstruction));
+    html += key_figures(reconstruction);
+    html += check_list(reconstruction);
+    html += section("Pictures", pictures(reconstruction, info.picture_width, context));
+    html += section("Rooms", rooms_table(reconstruction));
+    html += section("Components", components_table(reconstruction));
+    html += section("Registration", links_table(reconstruction) + poses_table(reconstruction));
+    html += section("Derived values", derived_values_table(reconstruction));
+    html += section("Settings", settings_part(run));
+    html += section("Cost", stages_table(reconstruction));
+    html += section("Input files", inputs_table(run));
+    html += fmt::format(
+        "</main>\n<footer>roomscribe {}{}</footer>\n<script>{}</script>\n</body>\n</html>\n",
+        escape_html(run.version),
+        run.num_threads > 0
+            ? fmt::format(" &#183; {}",
+                          counted(static_cast<std::size_t>(run.num_threads), "thread"))
+            : std::string(),
+        report_script());
+    return html;
+}
+
+void write_html_report(const std::filesystem::path& path, const Reconstruction& reconstruction,
+                       const ReportInfo& info, const Context& context) {
+    write_file(path, "HTML", render_html_report(reconstruction, info, context));
+}
+
+}  // namespace roomscribe

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+
+#include "roomscribe/core/context.hpp"
+#include "roomscribe/pipeline/reconstruct.hpp"
+#include "roomscribe/pipeline/workspace.hpp"
+
+namespace roomscribe {
+
+/// What a report says beside the results.
+struct ReportInfo {
+    std::string title = "Scan report";
+    RunRecord run;
+    std::size_t picture_width = 1400;  ///< pixels
+};
+
+/// One HTML file that opens without a network: summary, plan, section and registration pictures,
+/// tables of rooms, components, links, poses, settings, costs and inputs. What the reconstruction
+/// does not hold (no registration, no labels) is left out. Names from files are escaped.
+std::string render_html_report(const Reconstruction& reconstruction, const ReportInfo& info,
+                               const Context& context = {});
+
+/// Writes the report, whole or not at all. Throws IoError if it cannot be written.
+void write_html_report(const std::filesystem::path& path, const Reconstruction& reconstruction,
+                       const ReportInfo& info, const Context& context = {});
+
+}  // namespace roomscribe
