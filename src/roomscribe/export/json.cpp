@@ -131,6 +131,7 @@ Json link_of(const RegistrationLink& link) {
                  {"target", link.target},
                  {"verdict", link_verdict_name(link.verdict)},
                  {"overlap", length(link.overlap)},
+                 {"agreement", length(link.agreement)},
                  {"rmse", length(link.rmse)},
                  {"inliers", link.inliers},
                  {"target_from_source", matrix_of(link.target_from_source)},

@@ -32,8 +32,11 @@ std::optional<PlaneFit> PlaneMoments::fit() const {
     Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
     solver.computeDirect(covariance);
     const Eigen::Vector3d variances = solver.eigenvalues().cwiseMax(0.0);
-    // On one line two variances vanish against the third, down to rounding.
-    if (!(variances[1] > 1e-10 * variances[2])) return std::nullopt;
+    // On one line two variances vanish against the third, down to rounding. The direct solver keeps
+    // only half the digits of equal eigenvalues; the sum of their products keeps all.
+    const double products =
+        0.5 * (covariance.trace() * covariance.trace() - covariance.squaredNorm());
+    if (!(products > 1e-10 * variances[2] * variances[2])) return std::nullopt;
 
     PlaneFit result;
     result.centroid = reference + mean;

@@ -27,7 +27,7 @@ constexpr double smooth_quantile = 0.3;
 
 double quantile(std::vector<double>& values, double share) {
     if (values.empty()) return 0.0;
-    const auto rank = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+    const auto rank = std::lround(share * static_cast<double>(values.size() - 1));
     std::nth_element(values.begin(), values.begin() + rank, values.end());
     return values[static_cast<std::size_t>(rank)];
 }
@@ -124,7 +124,8 @@ ScanStatistics estimate_scan_statistics(const PointCloud& cloud, const Context& 
     statistics.extent = middle_extent(points);
     if (statistics.extent <= 0.0) return statistics;
 
-    const double cell_size = statistics.extent / cells_along_extent;
+    // As small and as large as a voxel may be: a cloud in a wrong unit is measured all the same.
+    const double cell_size = std::clamp(statistics.extent / cells_along_extent, 1e-6, 1e6);
     const SurfaceSamples samples = sample_surface(cloud, cell_size, context);
     const SearchTree tree(samples.points);
     std::vector<LocalMeasures> measures(samples.places.size());

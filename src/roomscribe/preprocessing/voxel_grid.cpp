@@ -117,7 +117,8 @@ VoxelGrid downsample_voxel_grid(const PointCloud& cloud, const VoxelGridSettings
     if (!cloud.normals.empty()) {
         grid.cloud.normals.reserve(num_voxels);
         for (const auto& sum : sum_by_voxel(cloud.normals, grid.voxel_of_point, num_voxels)) {
-            grid.cloud.normals.emplace_back(sum.normalized().cast<float>());
+            // 0 / 0 where normals cancel out or are all NaN: none is better than a wrong one.
+            grid.cloud.normals.emplace_back((sum / sum.norm()).cast<float>());
         }
     }
     grid.cloud.sensor_pose = cloud.sensor_pose;

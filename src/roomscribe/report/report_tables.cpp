@@ -170,6 +170,7 @@ std::string links_table(const Reconstruction& reconstruction) {
          {"Target", false},
          {"Verdict", false},
          {"Overlap (%)", true},
+         {"Agreement (%)", true},
          {"RMSE (mm)", true},
          {"Inliers", true},
          {"Sigma translation (mm)", true},
@@ -188,6 +189,7 @@ std::string links_table(const Reconstruction& reconstruction) {
         put_scan(link.target);
         table.html(verdict_mark(link_verdict_name(link.verdict)));
         table.number(100.0 * link.overlap, 1);
+        table.number(100.0 * link.agreement, 1);
         table.number(1000.0 * link.rmse, 2);
         table.count(link.inliers);
         table.number(1000.0 * worst_deviation(link.covariance.bottomRightCorner<3, 3>()), 2);

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+#include "cli/convert_command.hpp"
+
+#include <memory>
+#include <string>
+
+#include "cli/choice_option.hpp"
+#include "roomscribe/core/context.hpp"
+#include "roomscribe/io/point_cloud_io.hpp"
+
+namespace roomscribe::cli {
+namespace {
+
+struct ConvertOptions {
+    std::string input;
+    std::string output;
+    Encoding encoding = Encoding::automatic;
+};
+
+ExitCode convert(const ConvertOptions& options, const std::atomic<bool>& cancel) {
+    Context context;
+    context.cancel = &cancel;
+    const Scan scan = read_scan(options.input, context);
+    write_point_cloud(options.output, scan.cloud, {options.encoding}, context);
+    return ExitCode::done;
+}
+
+}  // namespace
+
+void add_convert_command(CLI::App& program, Action& action) {
+    const auto options = std::make_shared<ConvertOptions>();
+    CLI::App& verb = *program.add_subcommand("convert", "Write a cloud in another format");
+    verb.add_option("IN", options->input, "PCD, PLY, UOS .3d or legacy VTK")
+        ->type_name("")
+        ->required();
+    verb.add_option("OUT", options->output, "PCD, PLY or UOS .3d, as the name ends")
+        ->type_name("")
+        ->required();
+    add_choice_option<Encoding>(
+        verb, "--encoding", options->encoding,
+        {{"auto", Encoding::automatic},
+         {"ascii", Encoding::ascii},
+         {"binary", Encoding::binary},
+         {"binary_compressed", Encoding::binary_compressed},
+         {"binary_big_endian", Encoding::binary_big_endian}},
+        "auto, ascii, binary, binary_compressed (PCD) or binary_big_endian (PLY)")
+        ->type_name("NAME");
+    verb.callback([options, &action] {
+        action = [options](const std::atomic<bool>& cancel) { return convert(*options, cancel); };
+    });
+}
+
+}  // namespace roomscribe::cli

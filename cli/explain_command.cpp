@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+#include "cli/explain_command.hpp"
+
+#include <memory>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "cli/job.hpp"
+#include "cli/text_table.hpp"
+
+namespace roomscribe::cli {
+namespace {
+
+std::string derived_table(const std::vector<DerivedValue>& values) {
+    TextTable table("lrll");
+    table.add_row({"value", "", "", "why"});
+    for (const DerivedValue& value : values) {
+        table.add_row({value.name, fmt::format("{:.4g}", value.value), value.unit, value.reason});
+    }
+    return table.to_text();
+}
+
+std::string derived_json(const std::vector<DerivedValue>& values) {
+    using Json = nlohmann::ordered_json;
+    Json list = Json::array();
+    for (const DerivedValue& value : values) {
+        list.push_back({{"name", value.name},
+                        {"value", value.value},
+                        {"unit", value.unit},
+                        {"reason", value.reason}});
+    }
+    return list.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+ExitCode explain(const JobOptions& options, const std::atomic<bool>& cancel) {
+    const PipelineSettings settings = resolve_settings(options);
+    std::vector<DerivedValue> values;
+    {
+        ProgressDisplay display(options.progress);
+        const Context context = make_context(options, cancel, display);
+        const std::vector<Scan> scans = load_scans(options.inputs, context);
+        values = reconstruct(scans, settings, context).derived_values;
+    }
+    fmt::print("{}", options.as_json ? derived_json(values) : derived_table(values));
+    return ExitCode::done;
+}
+
+}  // namespace
+
+void add_explain_command(CLI::App& program, Action& action) {
+    const auto options = std::make_shared<JobOptions>();
+    CLI::App& verb = *program.add_subcommand(
+        "explain", "Run without writing; print every value derived from the scans, and why");
+    add_scans(verb, *options);
+    add_job_options(verb, *options);
+    verb.callback([options, &action] {
+        action = [options](const std::atomic<bool>& cancel) { return explain(*options, cancel); };
+    });
+}
+
+}  // namespace roomscribe::cli

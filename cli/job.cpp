@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: MIT
+#include "cli/job.hpp"
+
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <thread>
+
+#include <fmt/format.h>
+
+#include "cli/job_result.hpp"
+#include "cli/output_folder.hpp"
+#include "roomscribe/core/error.hpp"
+#include "roomscribe/geometry/bounding_box.hpp"
+#include "roomscribe/io/point_cloud_io.hpp"
+#include "roomscribe/pipeline/workspace.hpp"
+#include "roomscribe/report/html_report.hpp"
+
+namespace roomscribe::cli {
+namespace {
+
+/// Fewer points show no surface.
+constexpr std::size_t min_points = 100;
+
+void require_usable(const std::string& path, const PointCloud& cloud) {
+    const std::size_t num_finite = finite_points(cloud).size();
+    if (num_finite < min_points) {
+        throw IoError(path, "", {},
+                      fmt::format("holds {} points with finite coordinates", num_finite),
+                      fmt::format("a scan needs at least {}", min_points));
+    }
+    if (bounding_box(cloud.positions).sizes().maxCoeff() <= 0.0F) {
+        throw IoError(path, "", {}, "all points lie in one place",
+                      "export the scan again, with its coordinates");
+    }
+}
+
+RunRecord make_record(std::string_view verb, const JobOptions& options,
+                      const PipelineSettings& settings) {
+    RunRecord record;
+    record.version = ROOMSCRIBE_VERSION;
+    record.command = verb;
+    record.settings = list_settings(settings);
+    for (const auto& paths : {options.inputs, options.pose_files}) {
+        for (const std::string& path : paths)
+            record.inputs.push_back(describe_input(path));
+    }
+    record.num_threads = options.num_threads > 0
+                             ? options.num_threads
+                             : static_cast<int>(std::thread::hardware_concurrency());
+    return record;
+}
+
+/// Returns where the report lies.
+std::filesystem::path write_results(const std::filesystem::path& folder,
+                                    const Reconstruction& reconstruction,
+                                    std::span<const Scan> scans, const RunRecord& record,
+                                    const Context& context) {
+    if (reconstruction.registration) write_registration(folder, reconstruction, scans, context);
+    if (!reconstruction.labels.labels.empty()) {
+        write_interpretation(folder, reconstruction, context);
+    }
+    write_run_record(folder, record, reconstruction);
+    const std::filesystem::path report = folder / "report.html";
+    ReportInfo info;
+    info.run = record;
+    write_html_report(report, reconstruction, info, context);
+    return report;
+}
+
+}  // namespace
+
+Context make_context(const JobOptions& options, const std::atomic<bool>& cancel,
+                     ProgressDisplay& display) {
+    Context context;
+    context.num_threads = options.num_threads;
+    context.cancel = &cancel;
+    context.on_progress = [&display](std::string_view stage, double fraction) {
+        display.show(stage, fraction);
+    };
+    context.on_message = [&display](std::string_view message) { display.show_message(message); };
+    return context;
+}
+
+std::vector<Scan> load_scans(std::span<const std::string> paths, const Context& context) {
+    std::vector<Scan> scans;
+    for (const std::string& path : paths) {
+        context.throw_if_cancelled();
+        scans.push_back(read_scan(path, context));
+        require_usable(path, scans.back().cloud);
+    }
+    return scans;
+}
+
+ExitCode run_job(std::string_view verb, const JobOptions& options, const std::atomic<bool>& cancel,
+                 const Work& work) {
+    const auto start = std::chrono::steady_clock::now();
+    const PipelineSettings settings = resolve_settings(options);
+    const OutputFolder output(options.output);
+    Reconstruction reconstruction;
+    JobSummary summary;
+    summary.output = output.path().string();
+    {
+        ProgressDisplay display(options.progress);
+        const Context context = make_context(options, cancel, display);
+        const RunRecord record = make_record(verb, options, settings);
+        std::vector<Scan> scans = load_scans(options.inputs, context);
+        reconstruction = work(scans, settings, context);
+        context.throw_if_cancelled();
+        summary.report = write_results(output.path(), reconstruction, scans, record, context);
+    }
+    summary.seconds =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+
+    fmt::print("{}", options.as_json ? result_json(reconstruction, summary)
+                                     : result_tables(reconstruction, summary));
+    const std::string missing = missing_result(reconstruction);
+    if (missing.empty()) return ExitCode::done;
+    std::fflush(stdout);
+    fmt::print(stderr, "roomscribe: {}\n", missing);
+    return ExitCode::no_result;
+}
+
+}  // namespace roomscribe::cli

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+#include "cli/job_options.hpp"
+
+#include <fmt/format.h>
+
+#include "cli/choice_option.hpp"
+#include "cli/settings_file.hpp"
+
+namespace roomscribe::cli {
+
+void add_job_options(CLI::App& verb, JobOptions& options) {
+    verb.add_option("--config", options.settings_file, "Read settings from this file")
+        ->type_name("FILE");
+    verb.add_option("--set", options.assignments, "Change one setting; may be repeated")
+        ->type_name("NAME=VALUE")
+        ->allow_extra_args(false);
+    verb.add_option("--seed", options.seed, "Same as --set seed=N")->type_name("N");
+    verb.add_option("--threads", options.num_threads,
+                    "Threads to use, 0 for all of the machine; never changes a result")
+        ->type_name("N")
+        ->check(CLI::Range(0, 1024));
+    verb.add_flag("--json", options.as_json, "Print the result as JSON instead of tables");
+    add_choice_option<ProgressMode>(
+        verb, "--progress", options.progress,
+        {{"auto", ProgressMode::automatic},
+         {"none", ProgressMode::none},
+         {"json", ProgressMode::json}},
+        "On stderr: a bar on a terminal (auto), nothing (none), JSON lines (json)")
+        ->type_name("auto|none|json");
+    verb.footer([] {
+        return fmt::format("Settings, with their default, range and unit:\n{}\n{}\n",
+                           settings_table(), settings_file_help);
+    });
+}
+
+void add_scans(CLI::App& verb, JobOptions& options) {
+    verb.add_option("SCANS", options.inputs, "Scans: PCD, PLY, UOS .3d or legacy VTK")
+        ->type_name("")
+        ->required();
+}
+
+void add_output(CLI::App& verb, JobOptions& options) {
+    verb.add_option("-o,--output", options.output, "Folder for the results, made if absent")
+        ->type_name("FOLDER")
+        ->required();
+}
+
+PipelineSettings resolve_settings(const JobOptions& options) {
+    PipelineSettings settings;
+    if (!options.settings_file.empty()) apply_settings_file(settings, options.settings_file);
+    for (const std::string& assignment : options.assignments) {
+        apply_assignment(settings, assignment);
+    }
+    if (options.seed) set_setting(settings, "seed", *options.seed);
+    return settings;
+}
+
+}  // namespace roomscribe::cli

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <CLI/App.hpp>
+
+#include "cli/progress_display.hpp"
+#include "roomscribe/pipeline/pipeline_settings.hpp"
+
+namespace roomscribe::cli {
+
+/// What run, register, interpret, explain and demo have in common.
+struct JobOptions {
+    std::vector<std::string> inputs;
+    std::vector<std::string> pose_files;  ///< of interpret
+    std::string output;
+    std::string settings_file;
+    std::vector<std::string> assignments;
+    std::optional<std::string> seed;
+    int num_threads = 0;
+    bool as_json = false;
+    ProgressMode progress = ProgressMode::automatic;
+};
+
+/// Declares --config, --set, --seed, --threads, --json and --progress, and puts every setting under
+/// the help of the verb.
+void add_job_options(CLI::App& verb, JobOptions& options);
+
+/// Declares the scans, which the verb needs.
+void add_scans(CLI::App& verb, JobOptions& options);
+
+/// Declares -o, which the verb needs.
+void add_output(CLI::App& verb, JobOptions& options);
+
+/// The defaults, with --config, --set and --seed on top, in this order.
+PipelineSettings resolve_settings(const JobOptions& options);
+
+}  // namespace roomscribe::cli
