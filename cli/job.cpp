@@ -61,7 +61,7 @@ std::filesystem::path write_results(const std::filesystem::path& folder,
         write_interpretation(folder, reconstruction, context);
     }
     write_run_record(folder, record, reconstruction);
-    const std::filesystem::path report = folder / "report.html";
+    std::filesystem::path report = folder / "report.html";
     ReportInfo info;
     info.run = record;
     write_html_report(report, reconstruction, info, context);

@@ -85,18 +85,18 @@ ExitCode run_program(int argc, char** argv) {
 }  // namespace roomscribe::cli
 
 int main(int argc, char** argv) {
-    using namespace roomscribe;
+    namespace cli = roomscribe::cli;
     using cli::ExitCode;
     ExitCode code = ExitCode::internal_error;
     try {
         code = cli::run_program(argc, argv);
-    } catch (const Cancelled&) {
+    } catch (const roomscribe::Cancelled&) {
         code = cli::fail(ExitCode::interrupted, "interrupted");
     } catch (const cli::UsageError& error) {
         code = cli::fail(ExitCode::usage, error.what());
-    } catch (const InvalidArgument& error) {
+    } catch (const roomscribe::InvalidArgument& error) {
         code = cli::fail(ExitCode::usage, error.what());
-    } catch (const IoError& error) {
+    } catch (const roomscribe::IoError& error) {
         code = cli::fail(ExitCode::input, error.what());
     } catch (const std::bad_alloc&) {
         code = cli::fail(code, "out of memory");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "cli/output_folder.hpp"
 
+#include <ranges>
 #include <system_error>
 #include <utility>
 
@@ -29,8 +30,8 @@ OutputFolder::~OutputFolder() {
 
 void OutputFolder::remove_empty_folders() {
     std::error_code not_empty;
-    for (auto folder = missing_.rbegin(); folder != missing_.rend(); ++folder) {
-        std::filesystem::remove(*folder, not_empty);
+    for (const std::filesystem::path& folder : std::ranges::reverse_view(missing_)) {
+        std::filesystem::remove(folder, not_empty);
     }
 }
 

@@ -7,16 +7,21 @@
 #include "roomscribe/io/point_cloud_io.hpp"
 #include "roomscribe/pipeline/reconstruct.hpp"
 
+using roomscribe::Component;
+using roomscribe::Reconstruction;
+using roomscribe::RegistrationLink;
+using roomscribe::Scan;
+
 int main(int argc, char** argv) {
-    using namespace roomscribe;
     if (argc < 2) {
         std::puts("usage: describe_room SCAN...");
         return 2;
     }
     try {
         std::vector<Scan> scans;
-        for (int i = 1; i < argc; ++i) scans.push_back(read_scan(argv[i]));
-        const Reconstruction result = reconstruct(scans);
+        for (int i = 1; i < argc; ++i)
+            scans.push_back(roomscribe::read_scan(argv[i]));
+        const Reconstruction result = roomscribe::reconstruct(scans);
 
         for (const RegistrationLink& link : result.registration->links) {
             std::printf("scan %zu on scan %zu: %s, error %.1f mm\n", link.source, link.target,

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <gmock/gmock.h>
-
-#include <Eigen/Geometry>
 #include <cmath>
 #include <ostream>
+
+#include <Eigen/Geometry>
+#include <gmock/gmock.h>
 
 #include "roomscribe/core/units.hpp"
 #include "roomscribe/geometry/transform.hpp"

@@ -143,9 +143,9 @@ Scan simulate_scan(const SimulatedRoom& room, const Transform& room_from_scan, s
                                    static_cast<double>(pattern.columns);
             const Vector3d direction(std::cos(elevation) * std::cos(azimuth),
                                      std::cos(elevation) * std::sin(azimuth), std::sin(elevation));
-            const double length = cast_ray(room, room_from_scan.translation(),
-                                           room_from_scan.linear() * direction) +
-                                  pattern.noise * random.normal();
+            const double length =
+                cast_ray(room, room_from_scan.translation(), room_from_scan.linear() * direction) +
+                pattern.noise * random.normal();
             scan.cloud.positions.emplace_back((length * direction).cast<float>());
         }
     }

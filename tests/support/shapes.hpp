@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <Eigen/Geometry>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
+
+#include <Eigen/Geometry>
 
 #include "roomscribe/core/random.hpp"
 #include "roomscribe/core/units.hpp"
@@ -35,8 +36,8 @@ void add_noise(std::vector<Eigen::Vector3f>& points, double deviation, Random& r
 std::vector<Eigen::Vector3f> transformed(const std::vector<Eigen::Vector3f>& points,
                                          const Transform& target_from_source);
 
-/// Air bounded by walls, with solid boxes standing in it. The air is the union of boxes that overlap
-/// or touch.
+/// Air bounded by walls, with solid boxes standing in it. The air is the union of boxes that
+/// overlap or touch.
 struct SimulatedRoom {
     std::vector<Eigen::AlignedBox3d> air;
     std::vector<Eigen::AlignedBox3d> solids;

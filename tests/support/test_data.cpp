@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "support/test_data.hpp"
 
-#include <unistd.h>
-
 #include <atomic>
 #include <cstdlib>
+
+#include <unistd.h>
 
 namespace roomscribe::test {
 

@@ -28,5 +28,5 @@ std::filesystem::path real_scan(const std::string& relative_path);
 }  // namespace roomscribe::test
 
 /// Skips the running test, with a message, where a real scan is absent.
-#define ROOMSCRIBE_REQUIRE_REAL_SCAN(path)                                   \
+#define ROOMSCRIBE_REQUIRE_REAL_SCAN(path) \
     if ((path).empty()) GTEST_SKIP() << "the folder of real scans is absent"

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "roomscribe/core/error.hpp"
 
-#include <fmt/format.h>
-
 #include <utility>
+
+#include <fmt/format.h>
 
 namespace roomscribe {
 namespace {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "roomscribe/core/parallel.hpp"
 
+#include <algorithm>
+
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
-
-#include <algorithm>
 
 namespace roomscribe {
 
@@ -17,14 +17,13 @@ void parallel_for(const Context& context, std::size_t count, std::size_t chunk_s
         body(begin, std::min(begin + chunk_size, count));
     };
     if (num_chunks <= 1 || context.num_threads == 1) {
-        for (std::size_t chunk = 0; chunk < num_chunks; ++chunk) run_chunk(chunk);
+        for (std::size_t chunk = 0; chunk < num_chunks; ++chunk)
+            run_chunk(chunk);
         return;
     }
     tbb::task_arena arena(context.num_threads > 0 ? context.num_threads
                                                   : tbb::task_arena::automatic);
-    arena.execute([&] {
-        tbb::parallel_for(std::size_t{0}, num_chunks, run_chunk);
-    });
+    arena.execute([&] { tbb::parallel_for(std::size_t{0}, num_chunks, run_chunk); });
 }
 
 }  // namespace roomscribe

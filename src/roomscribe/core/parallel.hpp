@@ -28,7 +28,8 @@ Value parallel_reduce(const Context& context, std::size_t count, std::size_t chu
         partial[begin / chunk_size] = map(begin, end);
     });
     Value total = std::move(identity);
-    for (Value& value : partial) total = combine(std::move(total), std::move(value));
+    for (Value& value : partial)
+        total = combine(std::move(total), std::move(value));
     return total;
 }
 

@@ -5,8 +5,8 @@
 
 namespace roomscribe {
 
-/// A small generator (SplitMix64) whose numbers are the same with every compiler and library, unlike
-/// those of the standard distributions. Two streams of one seed are independent: give each
+/// A small generator (SplitMix64) whose numbers are the same with every compiler and library,
+/// unlike those of the standard distributions. Two streams of one seed are independent: give each
 /// hypothesis or chunk its own stream and the result does not depend on who computes it.
 class Random {
   public:

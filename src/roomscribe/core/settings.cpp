@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "roomscribe/core/settings.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <numeric>
+
+#include <fmt/format.h>
 
 #include "roomscribe/core/error.hpp"
 
@@ -41,7 +41,9 @@ class NamedVisitor : public SettingVisitor {
         prefix_.resize(prefix_lengths_.back());
         prefix_lengths_.pop_back();
     }
-    std::string full_name(const SettingInfo& info) const { return prefix_ + std::string(info.name); }
+    std::string full_name(const SettingInfo& info) const {
+        return prefix_ + std::string(info.name);
+    }
 
   private:
     std::string prefix_;
@@ -134,8 +136,8 @@ class Setter : public NamedVisitor {
     }
     void visit_optional(std::optional<double>& value, const SettingInfo& info) override {
         if (!matches(info)) return;
-        value = text_ == "auto" ? std::nullopt
-                                : std::optional(parse<double>(info, "a number or auto"));
+        value =
+            text_ == "auto" ? std::nullopt : std::optional(parse<double>(info, "a number or auto"));
     }
     void visit_choice(std::size_t& index, std::span<const std::string_view> names,
                       const SettingInfo& info) override {
@@ -189,10 +191,11 @@ void set_setting(void* settings, VisitSettings visit, std::string_view name,
             known.begin(), known.end(), [&](const SettingEntry& a, const SettingEntry& b) {
                 return name_distance(a.name, name) < name_distance(b.name, name);
             });
-        throw InvalidArgument("setting", name,
-                              nearest == known.end()
-                                  ? "a known setting"
-                                  : fmt::format("a known setting (did you mean {}?)", nearest->name));
+        throw InvalidArgument(
+            "setting", name,
+            nearest == known.end()
+                ? "a known setting"
+                : fmt::format("a known setting (did you mean {}?)", nearest->name));
     }
 }
 

@@ -44,7 +44,7 @@ class SettingVisitor {
         visit_optional(value, info);
     }
     template <typename Enum>
-        requires std::is_enum_v<Enum>
+    requires std::is_enum_v<Enum>
     void operator()(Enum& value, const SettingInfo& info) {
         auto index = static_cast<std::size_t>(value);
         visit_choice(index, enumerator_names(value), info);
@@ -105,7 +105,8 @@ void set_setting(Settings& settings, std::string_view name, std::string_view val
     internal::set_setting(&settings, &internal::visit_settings<Settings>, name, value);
 }
 
-/// Throws InvalidArgument if a value is out of its declared range. Every algorithm calls this first.
+/// Throws InvalidArgument if a value is out of its declared range. Every algorithm calls this
+/// first.
 template <typename Settings>
 void check_settings(Settings settings) {
     internal::check_settings(&settings, &internal::visit_settings<Settings>);

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <Eigen/Geometry>
 #include <span>
+
+#include <Eigen/Geometry>
 
 namespace roomscribe {
 

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "roomscribe/geometry/plane.hpp"
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
 
 namespace roomscribe {
 
@@ -49,14 +50,16 @@ std::optional<PlaneFit> PlaneMoments::fit() const {
 
 std::optional<PlaneFit> fit_plane(std::span<const Eigen::Vector3f> points) {
     PlaneMoments moments;
-    for (const Eigen::Vector3f& point : points) moments.add(point.cast<double>());
+    for (const Eigen::Vector3f& point : points)
+        moments.add(point.cast<double>());
     return moments.fit();
 }
 
 std::optional<PlaneFit> fit_plane(std::span<const Eigen::Vector3f> points,
                                   std::span<const std::uint32_t> indices) {
     PlaneMoments moments;
-    for (const std::uint32_t index : indices) moments.add(points[index].cast<double>());
+    for (const std::uint32_t index : indices)
+        moments.add(points[index].cast<double>());
     return moments.fit();
 }
 

@@ -12,7 +12,8 @@ std::vector<Value> select(const std::vector<Value>& values,
     std::vector<Value> selected;
     if (values.empty()) return selected;
     selected.reserve(indices.size());
-    for (const std::uint32_t index : indices) selected.push_back(values[index]);
+    for (const std::uint32_t index : indices)
+        selected.push_back(values[index]);
     return selected;
 }
 
@@ -21,15 +22,19 @@ std::vector<Value> select(const std::vector<Value>& values,
 std::size_t size_of(ScalarType type) {
     switch (type) {
         case ScalarType::int8:
-        case ScalarType::uint8: return 1;
+        case ScalarType::uint8:
+            return 1;
         case ScalarType::int16:
-        case ScalarType::uint16: return 2;
+        case ScalarType::uint16:
+            return 2;
         case ScalarType::int32:
         case ScalarType::uint32:
-        case ScalarType::float32: return 4;
+        case ScalarType::float32:
+            return 4;
         case ScalarType::int64:
         case ScalarType::uint64:
-        case ScalarType::float64: return 8;
+        case ScalarType::float64:
+            return 8;
     }
     return 0;
 }
@@ -68,7 +73,8 @@ void transform_in_place(PointCloud& cloud, const Transform& target_from_source) 
         point = (target_from_source * point.cast<double>()).cast<float>();
     }
     const Eigen::Matrix3f rotation = target_from_source.linear().cast<float>();
-    for (Eigen::Vector3f& normal : cloud.normals) normal = rotation * normal;
+    for (Eigen::Vector3f& normal : cloud.normals)
+        normal = rotation * normal;
     if (cloud.sensor_pose) cloud.sensor_pose = target_from_source * *cloud.sensor_pose;
 }
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <Eigen/Core>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -10,12 +9,23 @@
 #include <string>
 #include <vector>
 
+#include <Eigen/Core>
+
 #include "roomscribe/geometry/transform.hpp"
 
 namespace roomscribe {
 
 enum class ScalarType : std::uint8_t {
-    int8, uint8, int16, uint16, int32, uint32, int64, uint64, float32, float64
+    int8,
+    uint8,
+    int16,
+    uint16,
+    int32,
+    uint32,
+    int64,
+    uint64,
+    float32,
+    float64
 };
 
 /// Bytes that one value of the type takes.

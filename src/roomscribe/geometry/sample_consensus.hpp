@@ -34,12 +34,13 @@ struct ConsensusSettings {
                                  .min = 1,
                                  .max = 10'000'000,
                                  .doc = "Most samples that are drawn."});
-        visitor(confidence,
-                {.name = "confidence",
-                 .unit = "",
-                 .min = 0.0,
-                 .max = 1.0,
-                 .doc = "Probability of having drawn one sample of inliers alone before stopping."});
+        visitor(
+            confidence,
+            {.name = "confidence",
+             .unit = "",
+             .min = 0.0,
+             .max = 1.0,
+             .doc = "Probability of having drawn one sample of inliers alone before stopping."});
     }
 };
 
@@ -66,8 +67,8 @@ inline double consensus_iterations(double inlier_ratio, int sample_size, double 
 }
 
 /// RANSAC (Fischler and Bolles 1981), the one loop behind planes, lines, circles, axes and
-/// correspondence rejection. Iteration i draws from stream i of the seed, so that the result depends
-/// on seed and data alone. The earliest of equally good models is kept.
+/// correspondence rejection. Iteration i draws from stream i of the seed, so that the result
+/// depends on seed and data alone. The earliest of equally good models is kept.
 template <ConsensusProblem Problem>
 ConsensusResult<typename Problem::Model> sample_consensus(const Problem& problem,
                                                           std::uint64_t seed,
@@ -89,8 +90,8 @@ ConsensusResult<typename Problem::Model> sample_consensus(const Problem& problem
         needed = consensus_iterations(score / num_data, problem.sample_size(), settings.confidence);
     }
     if (!result.model) return result;
-    result.stop = result.iterations >= needed ? ConsensusStop::confident
-                                              : ConsensusStop::max_iterations;
+    result.stop =
+        result.iterations >= needed ? ConsensusStop::confident : ConsensusStop::max_iterations;
     return result;
 }
 

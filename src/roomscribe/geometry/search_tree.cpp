@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+
 #include <nanoflann.hpp>
 
 namespace roomscribe {
@@ -58,8 +59,8 @@ class NearestSet {
         } else {
             return true;
         }
-        for (std::size_t i = neighbors_.size() - 1;
-             i > 0 && nearer(candidate, neighbors_[i - 1]); --i) {
+        for (std::size_t i = neighbors_.size() - 1; i > 0 && nearer(candidate, neighbors_[i - 1]);
+             --i) {
             std::swap(neighbors_[i], neighbors_[i - 1]);
         }
         if (full()) limit_ = just_above(neighbors_.back().squared_distance);

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "roomscribe/geometry/transform.hpp"
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
+
+#include <Eigen/SVD>
 
 namespace roomscribe {
 
@@ -23,7 +24,8 @@ PointSpread measure_spread(std::span<const Eigen::Vector3f> points) {
     PointSpread spread;
     if (points.empty()) return spread;
     const auto count = static_cast<double>(points.size());
-    for (const Eigen::Vector3f& point : points) spread.mean += point.cast<double>();
+    for (const Eigen::Vector3f& point : points)
+        spread.mean += point.cast<double>();
     spread.mean /= count;
     for (const Eigen::Vector3f& point : points) {
         const Eigen::Vector3d offset = point.cast<double>() - spread.mean;

@@ -5,9 +5,12 @@ namespace roomscribe {
 
 std::string_view verdict_name(Verdict verdict) {
     switch (verdict) {
-        case Verdict::accepted: return "accepted";
-        case Verdict::doubtful: return "doubtful";
-        case Verdict::rejected: return "rejected";
+        case Verdict::accepted:
+            return "accepted";
+        case Verdict::doubtful:
+            return "doubtful";
+        case Verdict::rejected:
+            return "rejected";
     }
     return "";
 }

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <Eigen/Core>
 #include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include <Eigen/Core>
 
 #include "roomscribe/geometry/transform.hpp"
 #include "roomscribe/model/label.hpp"
@@ -19,8 +20,8 @@ std::string_view verdict_name(Verdict verdict);
 
 /// Why a component is what it is said to be: a label without training must explain itself.
 struct Evidence {
-    std::string rule;              ///< the rule that fired, in words
-    std::uint64_t points = 0;      ///< input points that support it
+    std::string rule;                ///< the rule that fired, in words
+    std::uint64_t points = 0;        ///< input points that support it
     std::optional<double> coverage;  ///< share of the polygon that points cover, in [0, 1]
     std::optional<double> occluded;  ///< share that something hides from every scanner, in [0, 1]
     std::optional<double> rms;       ///< m, distance of the points to the component's plane
@@ -39,9 +40,9 @@ struct OrientedBox {
 struct Component {
     std::string id;  ///< "wall-3"
     Label label = Label::unknown;
-    std::string kind;           ///< finer class, or empty
-    std::int32_t instance = 0;  ///< what labels.ply calls it
-    std::string parent;         ///< id of a room or component, or empty
+    std::string kind;                      ///< finer class, or empty
+    std::int32_t instance = 0;             ///< what labels.ply calls it
+    std::string parent;                    ///< id of a room or component, or empty
     std::vector<Eigen::Vector3d> polygon;  ///< corners in order, on the component's plane
     std::optional<OrientedBox> box;
     double confidence = 0.0;  ///< in [0, 1]

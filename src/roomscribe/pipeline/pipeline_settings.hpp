@@ -54,12 +54,13 @@ struct StructureSettings {
         visitor(axes_method, {.name = "axes_method",
                               .unit = "",
                               .doc = "A vote of all patches, or the paper's Algorithm 2."});
-        visitor(plane_tolerance, {.name = "plane_tolerance",
-                                  .unit = "m",
-                                  .min = 1e-9,
-                                  .max = 1e6,
-                                  .doc = "How far a point of a plane may lie from it; auto: from noise "
-                                         "and the evenness of finished walls."});
+        visitor(plane_tolerance,
+                {.name = "plane_tolerance",
+                 .unit = "m",
+                 .min = 1e-9,
+                 .max = 1e6,
+                 .doc = "How far a point of a plane may lie from it; auto: from noise "
+                        "and the evenness of finished walls."});
         visitor(min_plane_inliers,
                 {.name = "min_plane_inliers",
                  .unit = "",

@@ -24,8 +24,8 @@ std::vector<PlanarPatch> find_planes(const SurfaceSample& sample, const Pipeline
             .planes;
     }
     return grow_planar_patches(
-        sample.cloud,
-        {.distance_tolerance = sample.tolerance, .cell_size = 2.0 * sample.spacing}, context);
+        sample.cloud, {.distance_tolerance = sample.tolerance, .cell_size = 2.0 * sample.spacing},
+        context);
 }
 
 PrincipalAxes find_axes(const ScanMap& map, const SurfaceSample& sample,
@@ -44,11 +44,11 @@ void add_derived_values(std::vector<DerivedValue>& derived, const ScanStatistics
                         const SurfaceSample& sample, const StructureSettings& settings) {
     derived.push_back({"structure.point_spacing", statistics.point_spacing, "m",
                        "distance of neighbouring points of the map, median over its surface"});
-    derived.push_back({"structure.noise", statistics.noise, "m",
-                       "residuals of smooth surface of the map"});
-    derived.push_back({"structure.voxel_size", sample.voxel_size, "m",
-                       settings.sample.voxel_size ? "set by hand"
-                                                  : "half the point spacing, at least 0.04 m"});
+    derived.push_back(
+        {"structure.noise", statistics.noise, "m", "residuals of smooth surface of the map"});
+    derived.push_back(
+        {"structure.voxel_size", sample.voxel_size, "m",
+         settings.sample.voxel_size ? "set by hand" : "half the point spacing, at least 0.04 m"});
     derived.push_back({"structure.plane_tolerance", sample.tolerance, "m",
                        settings.plane_tolerance
                            ? "set by hand"
@@ -96,11 +96,11 @@ void interpret_map(Reconstruction& reconstruction, const PipelineSettings& setti
     const Upright upright =
         find_upright(sample, patches, axes, settings.interpretation.upright, context);
     finish("upright", 0.8);
-    RoomSurfaces surfaces = find_room_surfaces(sample, patches, upright,
-                                               settings.interpretation.surfaces, context);
+    RoomSurfaces surfaces =
+        find_room_surfaces(sample, patches, upright, settings.interpretation.surfaces, context);
     finish("floor, ceiling, walls", 0.9);
-    reconstruction.labels = label_points(map.cloud, sample, patches, surfaces,
-                                         settings.interpretation.labels, context);
+    reconstruction.labels =
+        label_points(map.cloud, sample, patches, surfaces, settings.interpretation.labels, context);
     finish("point labels", 1.0);
 
     reconstruction.scene.room_from_map = surfaces.room_from_map;

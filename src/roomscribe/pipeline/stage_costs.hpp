@@ -26,8 +26,8 @@ class StageTimer {
     /// Books the time since the last call (or since construction) under this name.
     void finish(std::string stage) {
         const auto now = std::chrono::steady_clock::now();
-        costs_.push_back({std::move(stage), std::chrono::duration<double>(now - start_).count(),
-                          peak_memory()});
+        costs_.push_back(
+            {std::move(stage), std::chrono::duration<double>(now - start_).count(), peak_memory()});
         start_ = now;
     }
 

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <Eigen/Core>
 #include <span>
 #include <vector>
+
+#include <Eigen/Core>
 
 #include "roomscribe/core/context.hpp"
 #include "roomscribe/core/settings.hpp"
@@ -15,12 +16,13 @@ struct NormalSettings {
     int num_neighbors = 20;
 
     void visit(SettingVisitor& visitor) {
-        visitor(num_neighbors,
-                {.name = "num_neighbors",
-                 .unit = "",
-                 .min = 3,
-                 .max = 1000,
-                 .doc = "Nearest points, the point itself among them, that a normal is fitted to."});
+        visitor(
+            num_neighbors,
+            {.name = "num_neighbors",
+             .unit = "",
+             .min = 3,
+             .max = 1000,
+             .doc = "Nearest points, the point itself among them, that a normal is fitted to."});
     }
 };
 

@@ -36,7 +36,8 @@ std::vector<std::uint32_t> remove_outliers(std::span<const Eigen::Vector3f> posi
             tree.nearest(positions[i], static_cast<std::size_t>(settings.num_neighbors) + 1,
                          neighbors);
             double sum = 0.0;
-            for (const Neighbor& neighbor : neighbors) sum += std::sqrt(neighbor.squared_distance);
+            for (const Neighbor& neighbor : neighbors)
+                sum += std::sqrt(neighbor.squared_distance);
             const double count = std::max<double>(1.0, static_cast<double>(neighbors.size()) - 1.0);
             log_distances[i] = std::log(std::max(sum / count, min_distance));
         }

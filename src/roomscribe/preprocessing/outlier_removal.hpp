@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <Eigen/Core>
 #include <cstdint>
 #include <span>
 #include <vector>
+
+#include <Eigen/Core>
 
 #include "roomscribe/core/context.hpp"
 #include "roomscribe/core/settings.hpp"
@@ -33,9 +34,9 @@ struct OutlierSettings {
 };
 
 /// Numbers of the points that stay, ascending. Statistical outlier removal (Rusu et al. 2008) on
-/// the logarithm of the distances with median and MAD, which the outliers themselves cannot move and
-/// which a density that falls with range does not mislead.
-/// Precondition: `tree` was made of `positions`, all finite.
+/// the logarithm of the distances with median and MAD, which the outliers themselves cannot move
+/// and which a density that falls with range does not mislead. Precondition: `tree` was made of
+/// `positions`, all finite.
 std::vector<std::uint32_t> remove_outliers(std::span<const Eigen::Vector3f> positions,
                                            const SearchTree& tree,
                                            const OutlierSettings& settings = {},

@@ -37,7 +37,8 @@ double middle_extent(const std::vector<Eigen::Vector3f>& points) {
     for (Eigen::Index axis = 0; axis < 3; ++axis) {
         std::vector<double> coordinates;
         coordinates.reserve(points.size());
-        for (const Eigen::Vector3f& point : points) coordinates.push_back(point[axis]);
+        for (const Eigen::Vector3f& point : points)
+            coordinates.push_back(point[axis]);
         const double low = quantile(coordinates, 0.01);
         size[axis] = quantile(coordinates, 0.99) - low;
     }
@@ -59,14 +60,16 @@ SurfaceSamples sample_surface(const PointCloud& cloud, double cell_size, const C
     const std::size_t num_cells = cells.cloud.size();
     const std::size_t stride = std::max<std::size_t>(1, num_cells / max_samples);
 
-    // All neighbours that count lie within a cell's size of the place (see estimate_scan_statistics).
+    // All neighbours that count lie within a cell's size of the place (see
+    // estimate_scan_statistics).
     const double reach = 2.0 * std::sqrt(3.0) * cell_size;
     const SearchTree tree(cells.cloud.positions);
     std::vector<bool> is_near(num_cells, stride == 1);
     std::vector<Neighbor> around;
     for (std::size_t cell = 0; stride > 1 && cell < num_cells; cell += stride) {
         tree.within_radius(cells.cloud.positions[cell], reach, around);
-        for (const Neighbor& neighbor : around) is_near[neighbor.index] = true;
+        for (const Neighbor& neighbor : around)
+            is_near[neighbor.index] = true;
     }
 
     SurfaceSamples samples;
@@ -95,8 +98,7 @@ LocalMeasures measure(const std::vector<Eigen::Vector3f>& points, const SearchTr
     LocalMeasures measures;
     measures.reach = std::sqrt(static_cast<double>(neighbors.back().squared_distance));
     // On a surface a disc of the k-th neighbour's radius holds k points: pi r^2 / k area for each.
-    measures.spacing =
-        measures.reach * std::sqrt(std::numbers::pi / std::max(count - 1.0, 1.0));
+    measures.spacing = measures.reach * std::sqrt(std::numbers::pi / std::max(count - 1.0, 1.0));
     PlaneMoments moments;
     for (const Neighbor& neighbor : neighbors) {
         moments.add(points[neighbor.index].cast<double>());
@@ -136,8 +138,8 @@ ScanStatistics estimate_scan_statistics(const PointCloud& cloud, const Context& 
         }
     });
 
-    // Stray returns far out (beyond a window, at the end of the scanner's range) fill cells of their
-    // own, but no surface. They count only if nearly everything is as thin.
+    // Stray returns far out (beyond a window, at the end of the scanner's range) fill cells of
+    // their own, but no surface. They count only if nearly everything is as thin.
     const auto is_surface = [&](const LocalMeasures& local) { return local.reach <= cell_size; };
     const auto num_surface = std::count_if(measures.begin(), measures.end(), is_surface);
     if (10 * static_cast<std::size_t>(num_surface) >= measures.size()) {

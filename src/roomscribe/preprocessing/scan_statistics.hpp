@@ -21,8 +21,8 @@ struct ScanStatistics {
     double extent = 0.0;
 };
 
-/// Estimates from a deterministic sample of the points. All zero if fewer than 3 points are finite or
-/// all are equal.
+/// Estimates from a deterministic sample of the points. All zero if fewer than 3 points are finite
+/// or all are equal.
 ScanStatistics estimate_scan_statistics(const PointCloud& cloud, const Context& context = {});
 
 }  // namespace roomscribe

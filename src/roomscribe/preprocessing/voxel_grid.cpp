@@ -49,7 +49,8 @@ class CellNumbering {
     }
     void grow() {
         slots_.assign(slots_.size() * 4, no_voxel);
-        for (std::uint32_t i = 0; i < cells_.size(); ++i) slots_[find_slot(cells_[i])] = i;
+        for (std::uint32_t i = 0; i < cells_.size(); ++i)
+            slots_[find_slot(cells_[i])] = i;
     }
 
     std::vector<std::uint32_t> slots_;
@@ -76,7 +77,8 @@ std::size_t assign_voxels(const std::vector<Eigen::Vector3f>& positions, double 
     std::sort(order.begin(), order.end(),
               [&cells](std::uint32_t a, std::uint32_t b) { return cells[a] < cells[b]; });
     std::vector<std::uint32_t> rank(cells.size());
-    for (std::uint32_t i = 0; i < order.size(); ++i) rank[order[i]] = i;
+    for (std::uint32_t i = 0; i < order.size(); ++i)
+        rank[order[i]] = i;
     for (std::uint32_t& voxel : voxel_of_point) {
         if (voxel != no_voxel) voxel = rank[voxel];
     }

@@ -27,15 +27,16 @@ struct VoxelGridSettings {
 inline constexpr std::uint32_t no_voxel = std::numeric_limits<std::uint32_t>::max();
 
 struct VoxelGrid {
-    /// One point per occupied voxel: the centroid of its points (and their mean normal, if the input
-    /// has normals). Sorted by voxel, so that the order of the input does not matter.
+    /// One point per occupied voxel: the centroid of its points (and their mean normal, if the
+    /// input has normals). Sorted by voxel, so that the order of the input does not matter.
     PointCloud cloud;
     std::vector<std::uint32_t> num_points;      ///< per voxel: input points in it
     std::vector<std::uint32_t> voxel_of_point;  ///< per input point: its voxel, or no_voxel
 };
 
 /// Thins a cloud to one point per cubic voxel. Voxels are aligned to the cloud's own axes. Points
-/// that are not finite, or lie more than 10^9 voxels out, are left out. Colours, intensities and channels are dropped.
+/// that are not finite, or lie more than 10^9 voxels out, are left out. Colours, intensities and
+/// channels are dropped.
 VoxelGrid downsample_voxel_grid(const PointCloud& cloud, const VoxelGridSettings& settings = {},
                                 const Context& context = {});
 

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "roomscribe/registration/correspondence_rejection.hpp"
 
-#include <Eigen/SVD>
 #include <array>
 #include <cmath>
+
+#include <Eigen/SVD>
 
 namespace roomscribe {
 namespace {
@@ -22,7 +23,8 @@ class MotionProblem {
     std::optional<Transform> propose(Random& random) const {
         const auto count = static_cast<std::uint32_t>(matches_.size());
         std::array<PointMatch, 3> sample;
-        for (PointMatch& match : sample) match = matches_[random.below(count)];
+        for (PointMatch& match : sample)
+            match = matches_[random.below(count)];
         for (std::size_t i = 0; i < 3; ++i) {
             const PointMatch& a = sample[i];
             const PointMatch& b = sample[(i + 1) % 3];
@@ -107,7 +109,8 @@ RejectionResult reject_by_sample_consensus(std::span<const PointMatch> matches, 
     result.target_from_source = consensus.model;
     result.inliers = problem.inliers(*consensus.model);
     std::vector<PointMatch> kept;
-    for (const std::uint32_t index : result.inliers) kept.push_back(matches[index]);
+    for (const std::uint32_t index : result.inliers)
+        kept.push_back(matches[index]);
     if (const auto refined = fit_transform(kept)) {
         const std::vector<std::uint32_t> refined_inliers = problem.inliers(*refined);
         if (refined_inliers.size() >= result.inliers.size()) {

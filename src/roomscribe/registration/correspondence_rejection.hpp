@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <Eigen/Core>
 #include <cstdint>
 #include <optional>
 #include <span>
 #include <vector>
+
+#include <Eigen/Core>
 
 #include "roomscribe/core/context.hpp"
 #include "roomscribe/core/settings.hpp"

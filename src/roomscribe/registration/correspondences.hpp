@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <Eigen/Core>
 #include <array>
 #include <cstdint>
 #include <span>
 #include <string_view>
 #include <vector>
+
+#include <Eigen/Core>
 
 #include "roomscribe/core/context.hpp"
 #include "roomscribe/core/settings.hpp"
@@ -28,9 +29,8 @@ struct MatchSettings {
     MatchMethod method = MatchMethod::back_and_forth;
 
     void visit(SettingVisitor& visitor) {
-        visitor(method, {.name = "method",
-                         .unit = "",
-                         .doc = "Nearest in one direction, or in both."});
+        visitor(method,
+                {.name = "method", .unit = "", .doc = "Nearest in one direction, or in both."});
     }
 };
 

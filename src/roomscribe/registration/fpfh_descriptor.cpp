@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "roomscribe/registration/fpfh_descriptor.hpp"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <optional>
 #include <vector>
+
+#include <Eigen/Geometry>
 
 #include "roomscribe/core/parallel.hpp"
 
@@ -49,11 +50,11 @@ int bin_of(float share) {
                       fpfh_bins_per_angle - 1);
 }
 
-void add_to(Histogram& histogram, const PairAngles& angles, float increment) {
+void add_to(Histogram& histogram, const PairAngles& angles) {
     constexpr float pi = std::numbers::pi_v<float>;
-    histogram[bin_of((angles.phi + pi) / (2.0F * pi))] += increment;
-    histogram[fpfh_bins_per_angle + bin_of((angles.alpha + 1.0F) * 0.5F)] += increment;
-    histogram[2 * fpfh_bins_per_angle + bin_of((angles.theta + 1.0F) * 0.5F)] += increment;
+    histogram[bin_of((angles.phi + pi) / (2.0F * pi))] += 1.0F;
+    histogram[fpfh_bins_per_angle + bin_of((angles.alpha + 1.0F) * 0.5F)] += 1.0F;
+    histogram[2 * fpfh_bins_per_angle + bin_of((angles.theta + 1.0F) * 0.5F)] += 1.0F;
 }
 
 using Neighborhoods = std::vector<std::vector<Neighbor>>;
@@ -74,7 +75,8 @@ std::vector<std::uint32_t> points_around(std::span<const std::uint32_t> keypoint
                                          const Neighborhoods& neighborhoods) {
     std::vector<bool> needed(neighborhoods.size(), false);
     for (const std::uint32_t keypoint : keypoints) {
-        for (const Neighbor& neighbor : neighborhoods[keypoint]) needed[neighbor.index] = true;
+        for (const Neighbor& neighbor : neighborhoods[keypoint])
+            needed[neighbor.index] = true;
     }
     std::vector<std::uint32_t> points;
     for (std::uint32_t i = 0; i < neighborhoods.size(); ++i) {
@@ -88,13 +90,15 @@ Histogram simplified_histogram(std::span<const Eigen::Vector3f> positions,
                                const std::vector<Neighbor>& neighborhood) {
     Histogram histogram = Histogram::Zero();
     if (neighborhood.size() < 2 || !normals[point].allFinite()) return histogram;
-    const float increment = 100.0F / static_cast<float>(neighborhood.size() - 1);
+    std::size_t num_partners = 0;
     for (const Neighbor& neighbor : neighborhood) {
         if (neighbor.index == point || !normals[neighbor.index].allFinite()) continue;
-        const auto angles = pair_angles(positions[point], normals[point],
-                                        positions[neighbor.index], normals[neighbor.index]);
-        if (angles) add_to(histogram, *angles, increment);
+        ++num_partners;
+        const auto angles = pair_angles(positions[point], normals[point], positions[neighbor.index],
+                                        normals[neighbor.index]);
+        if (angles) add_to(histogram, *angles);
     }
+    if (num_partners > 0) histogram *= 100.0F / static_cast<float>(num_partners);
     return histogram;
 }
 

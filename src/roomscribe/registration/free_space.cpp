@@ -13,11 +13,12 @@ FreeSpace::FreeSpace(std::span<const Eigen::Vector3f> positions,
     constexpr int finest = 360;
     constexpr int coarsest = 18;
     cells_per_edge_ = finest;
-    const double occupancy = fill(positions);
-    if (occupancy < points_per_cell) {
-        cells_per_edge_ = std::clamp(
-            static_cast<int>(finest * std::sqrt(occupancy / points_per_cell)), coarsest, finest);
-        fill(positions);
+    // An occupied cell holds a point at least: how thin a scan is shows only once cells are shared.
+    double occupancy = fill(positions);
+    while (occupancy < points_per_cell && cells_per_edge_ > coarsest) {
+        const double factor = std::min(0.9, std::sqrt(occupancy / points_per_cell));
+        cells_per_edge_ = std::max(coarsest, static_cast<int>(factor * cells_per_edge_));
+        occupancy = fill(positions);
     }
 }
 
@@ -41,8 +42,8 @@ double FreeSpace::fill(std::span<const Eigen::Vector3f> positions) {
 }
 
 std::size_t FreeSpace::index_of(const CellPlace& place) const {
-    return static_cast<std::size_t>(
-        (place.face * cells_per_edge_ + place.row) * cells_per_edge_ + place.column);
+    return static_cast<std::size_t>((place.face * cells_per_edge_ + place.row) * cells_per_edge_ +
+                                    place.column);
 }
 
 FreeSpace::CellPlace FreeSpace::place_of(const Eigen::Vector3d& direction) const {

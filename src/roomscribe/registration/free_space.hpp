@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <Eigen/Core>
 #include <cstdint>
 #include <span>
 #include <vector>
+
+#include <Eigen/Core>
 
 namespace roomscribe {
 
@@ -26,8 +27,8 @@ class FreeSpace {
               double points_per_cell = 6.0);
 
     /// Judges a place in the scan's frame. `margin` (m) is how far off a surface still counts as on
-    /// it. The neighbouring cells have their say, so that the rim of a surface, or a floor seen at a
-    /// grazing angle, makes no space free that is not.
+    /// it. The neighbouring cells have their say, so that the rim of a surface, or a floor seen at
+    /// a grazing angle, makes no space free that is not.
     Visibility look_at(const Eigen::Vector3d& place, double margin) const;
 
   private:
@@ -53,8 +54,8 @@ class FreeSpace {
 };
 
 /// Share of the points that stand clearly behind another point in the same narrow direction: a few
-/// per cent for a scan that really was taken from the sensor position, a quarter and more for a cloud
-/// that was merged from several places.
+/// per cent for a scan that really was taken from the sensor position, a quarter and more for a
+/// cloud that was merged from several places.
 double self_contradiction(std::span<const Eigen::Vector3f> positions,
                           const Eigen::Vector3d& sensor_position, double margin);
 

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "roomscribe/registration/icp.hpp"
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
 
 #include "roomscribe/core/error.hpp"
 #include "roomscribe/core/parallel.hpp"
@@ -39,8 +40,7 @@ struct PairSums {
         return *this;
     }
     double rmse() const {
-        return num_pairs == 0 ? 0.0
-                              : std::sqrt(squared_error / static_cast<double>(num_pairs));
+        return num_pairs == 0 ? 0.0 : std::sqrt(squared_error / static_cast<double>(num_pairs));
     }
 };
 
@@ -99,8 +99,7 @@ PairSums gather_pairs(const IcpSource& source, const IcpTarget& target,
             if (settings.method == IcpMethod::point_to_point) {
                 add_point_pair(sums, moved, closest);
             } else if (target.normals[neighbor.index].allFinite()) {
-                add_plane_pair(sums, moved, closest,
-                               target.normals[neighbor.index].cast<double>());
+                add_plane_pair(sums, moved, closest, target.normals[neighbor.index].cast<double>());
             }
         }
         return sums;
@@ -115,8 +114,7 @@ Transform step_point_to_point(const PairSums& sums) {
     const Eigen::Vector3d moved_mean = sums.moved_sum / count;
     const Eigen::Vector3d target_mean = sums.target_sum / count;
     Transform step = Transform::Identity();
-    step.linear() =
-        nearest_rotation(sums.products - count * target_mean * moved_mean.transpose());
+    step.linear() = nearest_rotation(sums.products - count * target_mean * moved_mean.transpose());
     step.translation() = target_mean - step.linear() * moved_mean;
     return step;
 }
@@ -145,9 +143,12 @@ double displacement(const Transform& step, double radius) {
 
 std::string_view icp_stop_name(IcpStop stop) {
     switch (stop) {
-        case IcpStop::converged: return "converged";
-        case IcpStop::max_iterations: return "max_iterations";
-        case IcpStop::too_few_pairs: return "too_few_pairs";
+        case IcpStop::converged:
+            return "converged";
+        case IcpStop::max_iterations:
+            return "max_iterations";
+        case IcpStop::too_few_pairs:
+            return "too_few_pairs";
     }
     return "";
 }
@@ -163,7 +164,8 @@ IcpResult align_icp(const IcpSource& source, const IcpTarget& target,
     result.target_from_source = target_from_source_guess;
     if (source.positions.empty() || target.tree.size() == 0) return result;
     float radius = 0.0F;
-    for (const Eigen::Vector3f& point : target.positions) radius = std::max(radius, point.norm());
+    for (const Eigen::Vector3f& point : target.positions)
+        radius = std::max(radius, point.norm());
 
     constexpr std::size_t min_pairs = 6;
     double previous_error = std::numeric_limits<double>::infinity();

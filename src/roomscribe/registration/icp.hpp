@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <Eigen/Core>
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 #include <string_view>
 #include <vector>
+
+#include <Eigen/Core>
 
 #include "roomscribe/core/context.hpp"
 #include "roomscribe/core/settings.hpp"
@@ -47,13 +48,14 @@ struct IcpSettings {
                                  .min = 1,
                                  .max = 100'000,
                                  .doc = "The paper's is 100."});
-        visitor(min_error_change,
-                {.name = "min_error_change",
-                 .unit = "m",
-                 .min = 0.0,
-                 .max = 1e3,
-                 .doc = "Stop when the root mean square error changes by less, and the motion of an "
-                        "iteration moves no point by more than ten times this."});
+        visitor(
+            min_error_change,
+            {.name = "min_error_change",
+             .unit = "m",
+             .min = 0.0,
+             .max = 1e3,
+             .doc = "Stop when the root mean square error changes by less, and the motion of an "
+                    "iteration moves no point by more than ten times this."});
         visitor(max_normal_angle,
                 {.name = "max_normal_angle",
                  .unit = "rad",
@@ -73,11 +75,11 @@ std::string_view icp_stop_name(IcpStop stop);
 
 struct IcpResult {
     Transform target_from_source = Transform::Identity();
-    std::size_t num_pairs = 0;  ///< of the last iteration
-    double rmse = 0.0;          ///< m, of what the method minimises, over the pairs
+    std::size_t num_pairs = 0;   ///< of the last iteration
+    double rmse = 0.0;           ///< m, of what the method minimises, over the pairs
     std::vector<double> errors;  ///< m, rmse at the start of every iteration
-    /// J^T J of the residuals with respect to a twist (rotation vector about the origin of the target
-    /// frame, translation) at the result: with the noise, what is known of the pose.
+    /// J^T J of the residuals with respect to a twist (rotation vector about the origin of the
+    /// target frame, translation) at the result: with the noise, what is known of the pose.
     Eigen::Matrix<double, 6, 6> information = Eigen::Matrix<double, 6, 6>::Zero();
     IcpStop stop = IcpStop::too_few_pairs;
 };

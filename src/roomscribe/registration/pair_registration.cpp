@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "roomscribe/registration/pair_registration.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <vector>
+
+#include <Eigen/Eigenvalues>
 
 #include "roomscribe/core/parallel.hpp"
 #include "roomscribe/core/units.hpp"
@@ -60,8 +61,8 @@ std::vector<Transform> find_initial_poses(std::span<const PointMatch> matches,
     for (const PoseCandidate& candidate :
          propose_poses(matches,
                        {.length_tolerance = tolerance,
-                        .min_difference = icp_reach_in_voxels * scale.coarse_voxel,
-                        .max_candidates = settings.max_candidates},
+                       .min_difference = icp_reach_in_voxels * scale.coarse_voxel,
+                       .max_candidates = settings.max_candidates},
                        context)) {
         poses.push_back(candidate.target_from_source);
     }
@@ -118,14 +119,14 @@ IcpResult refine(const PreparedScan& source, const PreparedScan& target, const T
     IcpResult result;
     result.target_from_source = guess;
     for (const double reach : {2.0 * scale.coarse_voxel, 2.0 * scale.fine_voxel}) {
-        result = align_icp(icp_source(source.fine), icp_target(target.fine),
-                           result.target_from_source,
-                           {.method = settings.icp_method,
-                            .max_correspondence_distance = reach,
-                            .max_iterations = settings.icp_max_iterations,
-                            // A hundredth of the noise is below what the data can tell.
-                            .min_error_change = 1e-3 * std::max(scale.noise, 1e-3)},
-                           context);
+        result =
+            align_icp(icp_source(source.fine), icp_target(target.fine), result.target_from_source,
+                      {.method = settings.icp_method,
+                       .max_correspondence_distance = reach,
+                       .max_iterations = settings.icp_max_iterations,
+                       // A hundredth of the noise is below what the data can tell.
+                       .min_error_change = 1e-3 * std::max(scale.noise, 1e-3)},
+                      context);
         if (result.stop == IcpStop::too_few_pairs) break;
     }
     return result;
@@ -134,8 +135,8 @@ IcpResult refine(const PreparedScan& source, const PreparedScan& target, const T
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
 using Vector6d = Eigen::Matrix<double, 6, 1>;
 
-/// Covariance by the Cramer-Rao bound of the alignment, sigma^2 (J^T J)^-1, and the directions along
-/// which the surfaces hold less than a hundredth of what they hold along the others.
+/// Covariance by the Cramer-Rao bound of the alignment, sigma^2 (J^T J)^-1, and the directions
+/// along which the surfaces hold less than a hundredth of what they hold along the others.
 void add_uncertainty(RegistrationLink& link, const IcpResult& icp, const PreparedScan& target,
                      const RegistrationScale& scale) {
     double mean_square_radius = 0.0;
@@ -169,11 +170,12 @@ void PairRegistrationSettings::visit(SettingVisitor& visitor) {
              .doc = "How poses are found from matches: the paper's sample consensus, or several "
                     "candidates from the compatibility graph."});
     visitor(icp_method, {.name = "icp_method", .unit = "", .doc = "What ICP minimises."});
-    visitor(icp_max_iterations, {.name = "icp_max_iterations",
-                                 .unit = "",
-                                 .min = 1,
-                                 .max = 100'000,
-                                 .doc = "Most iterations of the fine alignment (the paper's 100)."});
+    visitor(icp_max_iterations,
+            {.name = "icp_max_iterations",
+             .unit = "",
+             .min = 1,
+             .max = 100'000,
+             .doc = "Most iterations of the fine alignment (the paper's 100)."});
     visitor(max_candidates, {.name = "max_candidates",
                              .unit = "",
                              .min = 1,
@@ -185,32 +187,35 @@ void PairRegistrationSettings::visit(SettingVisitor& visitor) {
              .min = 0.0,
              .max = 1.0,
              .doc = "A link is rejected if a smaller share of the points has a counterpart."});
-    visitor(min_agreement,
-            {.name = "min_agreement",
-             .unit = "",
-             .min = 0.0,
-             .max = 1.0,
-             .doc = "... or if, of the points on which the other scan has a say, a smaller share is "
-                    "confirmed."});
+    visitor(
+        min_agreement,
+        {.name = "min_agreement",
+         .unit = "",
+         .min = 0.0,
+         .max = 1.0,
+         .doc = "... or if, of the points on which the other scan has a say, a smaller share is "
+                "confirmed."});
     visitor(min_agreement_alone,
             {.name = "min_agreement_alone",
              .unit = "",
              .min = 0.0,
              .max = 1.0,
              .doc = "The same where it is not known what the scanners' rays passed through."});
-    visitor(max_contradiction,
-            {.name = "max_contradiction",
+    visitor(
+        max_contradiction,
+        {.name = "max_contradiction",
+         .unit = "",
+         .min = 0.0,
+         .max = 1.0,
+         .doc = "... or if more points than this, as a share of the confirmed ones, lie where the "
+                "other scan's rays passed."});
+    visitor(min_lead,
+            {.name = "min_lead",
              .unit = "",
              .min = 0.0,
              .max = 1.0,
-             .doc = "... or if more points than this, as a share of the confirmed ones, lie where the "
-                    "other scan's rays passed."});
-    visitor(min_lead, {.name = "min_lead",
-                       .unit = "",
-                       .min = 0.0,
-                       .max = 1.0,
-                       .doc = "A link is ambiguous if a different pose comes this close to the best "
-                              "one's score (as a share of it)."});
+             .doc = "A link is ambiguous if a different pose comes this close to the best "
+                    "one's score (as a share of it)."});
 }
 
 double PoseSupport::overlap() const {
@@ -236,8 +241,8 @@ enum class PointFate : std::uint8_t { unknown, confirmed, displaced, contradicte
 /// What becomes of one oriented point in the frame of the scan that judges it.
 PointFate judge_point(const PreparedScan& judge, const Eigen::Vector3d& place,
                       const Eigen::Vector3d& normal, const RegistrationScale& scale) {
-    // Centroids of the same surface in two voxel grids lie within one and a half voxels, and within a
-    // quarter of a voxel of each other's plane.
+    // Centroids of the same surface in two voxel grids lie within one and a half voxels, and within
+    // a quarter of a voxel of each other's plane.
     const double reach = 1.5 * scale.coarse_voxel;
     const double max_off_plane = 0.25 * scale.coarse_voxel;
     const double min_cosine = std::cos(radians(45.0));
@@ -286,8 +291,8 @@ PoseSupport measure_one_way(const PreparedScan& seen, const PreparedScan& judge,
 
 /// Whether the scans support the refined pose.
 bool is_supported(const PoseSupport& support, const PairRegistrationSettings& settings) {
-    const double min_agreement = support.free_space_is_known ? settings.min_agreement
-                                                             : settings.min_agreement_alone;
+    const double min_agreement =
+        support.free_space_is_known ? settings.min_agreement : settings.min_agreement_alone;
     return support.overlap() >= settings.min_overlap && support.agreement() >= min_agreement &&
            static_cast<double>(support.contradicted) <=
                settings.max_contradiction * static_cast<double>(support.confirmed);
@@ -335,7 +340,8 @@ RegistrationLink register_pair(const PreparedScan& source, const PreparedScan& t
     const auto rival = std::find_if(poses.begin(), poses.end(), [&](const VerifiedPose& pose) {
         return different_poses(source, pose.target_from_source, link.target_from_source, scale);
     });
-    if (rival != poses.end() && rival->support.score() > (1.0 - settings.min_lead) * support.score()) {
+    if (rival != poses.end() &&
+        rival->support.score() > (1.0 - settings.min_lead) * support.score()) {
         link.verdict = LinkVerdict::ambiguous;
         link.rival = rival->target_from_source;
     }

@@ -47,8 +47,8 @@ struct PairRegistrationSettings {
 /// scan. Points in space that the other scan did not see count in `total` alone.
 struct PoseSupport {
     std::size_t total = 0;
-    std::size_t confirmed = 0;  ///< on a surface of the other scan that faces the same way
-    std::size_t displaced = 0;  ///< near such a surface, but off it by more than it is uncertain
+    std::size_t confirmed = 0;     ///< on a surface of the other scan that faces the same way
+    std::size_t displaced = 0;     ///< near such a surface, but off it by more than it is uncertain
     std::size_t contradicted = 0;  ///< where the other scan's rays passed and met nothing
     /// Whether both scans' free space could be asked; without it nothing is ever contradicted.
     bool free_space_is_known = false;

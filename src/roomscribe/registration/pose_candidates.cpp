@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "roomscribe/registration/pose_candidates.hpp"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstdint>
 #include <numeric>
+
+#include <Eigen/Geometry>
 
 #include "roomscribe/core/parallel.hpp"
 
@@ -84,7 +85,8 @@ CompatibilityGraph build_graph(std::span<const PointMatch> matches,
 std::vector<std::uint32_t> choose_seeds(const CompatibilityGraph& graph, std::size_t num_matches) {
     constexpr std::size_t max_seeds = 400;
     std::vector<std::uint32_t> degrees(num_matches);
-    for (std::size_t i = 0; i < num_matches; ++i) degrees[i] = graph.degree(i);
+    for (std::size_t i = 0; i < num_matches; ++i)
+        degrees[i] = graph.degree(i);
     std::vector<std::uint32_t> seeds(num_matches);
     std::iota(seeds.begin(), seeds.end(), 0U);
     std::stable_sort(seeds.begin(), seeds.end(), [&degrees](std::uint32_t a, std::uint32_t b) {
@@ -106,7 +108,8 @@ std::vector<std::uint32_t> grow_set(const CompatibilityGraph& graph, std::uint32
                      [](const auto& a, const auto& b) { return a.first > b.first; });
     partners.resize(std::min(partners.size(), set_size));
     std::vector<std::uint32_t> members{seed};
-    for (const auto& [common, match] : partners) members.push_back(match);
+    for (const auto& [common, match] : partners)
+        members.push_back(match);
     return members;
 }
 
@@ -114,7 +117,8 @@ std::vector<PointMatch> pick(std::span<const PointMatch> matches,
                              const std::vector<std::uint32_t>& indices) {
     std::vector<PointMatch> picked;
     picked.reserve(indices.size());
-    for (const std::uint32_t index : indices) picked.push_back(matches[index]);
+    for (const std::uint32_t index : indices)
+        picked.push_back(matches[index]);
     return picked;
 }
 
@@ -164,18 +168,18 @@ std::vector<PoseCandidate> propose_poses(std::span<const PointMatch> matches,
             grown[i] = grow_candidate(matches, graph, seeds[i], settings);
         }
     });
-    std::stable_sort(grown.begin(), grown.end(), [](const auto& a, const auto& b) {
-        return a.num_inliers > b.num_inliers;
-    });
+    std::stable_sort(grown.begin(), grown.end(),
+                     [](const auto& a, const auto& b) { return a.num_inliers > b.num_inliers; });
 
     std::vector<Eigen::Vector3f> sources;
-    for (const PointMatch& match : matches) sources.push_back(match.source.cast<float>());
+    for (const PointMatch& match : matches)
+        sources.push_back(match.source.cast<float>());
     const PointSpread spread = measure_spread(sources);
     std::vector<PoseCandidate> candidates;
     for (const PoseCandidate& candidate : grown) {
         if (candidate.num_inliers < 3) break;
-        const bool is_new = std::none_of(
-            candidates.begin(), candidates.end(), [&](const PoseCandidate& other) {
+        const bool is_new =
+            std::none_of(candidates.begin(), candidates.end(), [&](const PoseCandidate& other) {
                 return rms_displacement(spread, candidate.target_from_source,
                                         other.target_from_source) < settings.min_difference;
             });

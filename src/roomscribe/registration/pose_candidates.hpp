@@ -39,13 +39,14 @@ struct CompatibilitySettings {
                  .max = 3.15,
                  .doc = "... and the angles of their normals with each other and with their "
                         "connection by at most this."});
-        visitor(min_difference,
-                {.name = "min_difference",
-                 .unit = "m",
-                 .min = 0.0,
-                 .max = 1e6,
-                 .doc = "Poses that move the points less than this apart (root mean square) are one "
-                        "candidate."});
+        visitor(
+            min_difference,
+            {.name = "min_difference",
+             .unit = "m",
+             .min = 0.0,
+             .max = 1e6,
+             .doc = "Poses that move the points less than this apart (root mean square) are one "
+                    "candidate."});
         visitor(max_candidates, {.name = "max_candidates",
                                  .unit = "",
                                  .min = 1,

@@ -14,8 +14,7 @@ namespace {
 SurfacePoints thin_to_surface(const Scan& scan, double voxel_size, const Context& context) {
     const VoxelGrid grid = downsample_voxel_grid(scan.cloud, {.voxel_size = voxel_size}, context);
     const SearchTree all(grid.cloud.positions);
-    const std::vector<std::uint32_t> kept =
-        remove_outliers(grid.cloud.positions, all, {}, context);
+    const std::vector<std::uint32_t> kept = remove_outliers(grid.cloud.positions, all, {}, context);
     std::vector<Eigen::Vector3f> positions = select_points(grid.cloud, kept).positions;
     SearchTree tree(positions);
     std::vector<Eigen::Vector3f> normals =
@@ -82,7 +81,8 @@ PreparedScan prepare_scan(const Scan& scan, const RegistrationScale& scale,
             std::move(keypoints),
             std::move(descriptors),
             spread,
-            FreeSpace(scan.cloud.positions, scan.sensor_position()), free_space_is_valid};
+            FreeSpace(scan.cloud.positions, scan.sensor_position()),
+            free_space_is_valid};
 }
 
 }  // namespace roomscribe

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <Eigen/Core>
 #include <cstdint>
 #include <vector>
+
+#include <Eigen/Core>
 
 #include "roomscribe/core/context.hpp"
 #include "roomscribe/geometry/search_tree.hpp"
@@ -37,7 +38,7 @@ struct RegistrationScale {
 struct PreparedScan {
     SurfacePoints coarse;
     SurfacePoints fine;
-    OrientedPoints sample;  ///< some of the coarse points, spread evenly
+    OrientedPoints sample;                 ///< some of the coarse points, spread evenly
     std::vector<std::uint32_t> keypoints;  ///< numbers of coarse points
     FpfhDescriptors descriptors;           ///< one column per keypoint
     PointSpread spread;                    ///< of the coarse points
@@ -46,7 +47,8 @@ struct PreparedScan {
     bool free_space_is_valid = false;
 };
 
-/// Voxel grid, outlier removal, normals, keypoints, FPFH (steps 1 and 2 of the paper's Algorithm 1).
+/// Voxel grid, outlier removal, normals, keypoints, FPFH (steps 1 and 2 of the paper's Algorithm
+/// 1).
 PreparedScan prepare_scan(const Scan& scan, const RegistrationScale& scale,
                           const Context& context = {});
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "roomscribe/registration/scan_registration.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
+
+#include <fmt/format.h>
 
 #include "roomscribe/core/error.hpp"
 #include "roomscribe/preprocessing/scan_statistics.hpp"
@@ -28,10 +28,12 @@ RegistrationScale derive_scale(std::span<const Scan> scans,
     std::vector<double> extents;
     for (const Scan& scan : scans) {
         const ScanStatistics statistics = estimate_scan_statistics(scan.cloud, context);
+        if (!(statistics.extent > 0.0)) continue;  // no returns, no sizes
         spacings.push_back(statistics.point_spacing);
         noises.push_back(statistics.noise);
         extents.push_back(statistics.extent);
     }
+    if (extents.empty()) return {};
     const double spacing = median_of(spacings);
     const double noise = median_of(noises);
     const double extent = median_of(extents);
@@ -58,11 +60,10 @@ RegistrationScale derive_scale(std::span<const Scan> scans,
                fmt::format("largest of 1/100 of the extent ({:.1f} m, at most {} m), twice the "
                            "spacing, four times the noise",
                            extent, max_structure));
-    scale.fine_voxel =
-        derive("registration.fine_voxel", settings.fine_voxel,
-               std::min(scale.coarse_voxel,
-                        std::max({spacing, 2.0 * noise, scale.coarse_voxel / 4.0})),
-               "largest of the spacing, twice the noise, a quarter of the coarse voxel");
+    scale.fine_voxel = derive(
+        "registration.fine_voxel", settings.fine_voxel,
+        std::min(scale.coarse_voxel, std::max({spacing, 2.0 * noise, scale.coarse_voxel / 4.0})),
+        "largest of the spacing, twice the noise, a quarter of the coarse voxel");
     scale.fpfh_radius = derive("registration.fpfh_radius", settings.fpfh_radius,
                                5.0 * scale.coarse_voxel, "five coarse voxels");
     return scale;
@@ -84,8 +85,8 @@ class SequencePlacer {
         std::vector<std::size_t> waiting;
         for (std::size_t scan = 1; scan < prepared_.size(); ++scan) {
             if (!place(scan, placed_)) waiting.push_back(scan);
-            context_.report_progress("register", static_cast<double>(scan + 1) /
-                                                     static_cast<double>(prepared_.size()));
+            context_.report_progress(
+                "register", static_cast<double>(scan + 1) / static_cast<double>(prepared_.size()));
         }
         place_waiting(std::move(waiting));
         add_residuals();
@@ -93,8 +94,8 @@ class SequencePlacer {
     }
 
   private:
-    /// Tries the given partners, latest first, until a link is accepted; an ambiguous one will do if
-    /// none is.
+    /// Tries the given partners, latest first, until a link is accepted; an ambiguous one will do
+    /// if none is.
     bool place(std::size_t scan, const std::vector<std::size_t>& partners) {
         std::optional<RegistrationLink> ambiguous;
         for (auto partner = partners.rbegin(); partner != partners.rend(); ++partner) {
@@ -193,8 +194,7 @@ void ScanRegistrationSettings::visit(SettingVisitor& visitor) {
 }
 
 ScanRegistration register_scans(std::span<const Scan> scans, std::uint64_t seed,
-                                const ScanRegistrationSettings& settings,
-                                const Context& context) {
+                                const ScanRegistrationSettings& settings, const Context& context) {
     check_settings(settings);
     if (scans.empty()) throw InvalidArgument("scans", "0", "at least one scan");
     ScanRegistration result;
@@ -203,8 +203,8 @@ ScanRegistration register_scans(std::span<const Scan> scans, std::uint64_t seed,
     prepared.reserve(scans.size());
     for (const Scan& scan : scans) {
         prepared.push_back(prepare_scan(scan, scale, context));
-        context.report_progress("prepare", static_cast<double>(prepared.size()) /
-                                               static_cast<double>(scans.size()));
+        context.report_progress(
+            "prepare", static_cast<double>(prepared.size()) / static_cast<double>(scans.size()));
     }
     result.registration = SequencePlacer(prepared, scale, seed, settings, context).run();
     return result;

@@ -29,11 +29,11 @@ struct ScanRegistration {
     std::vector<DerivedValue> derived_values;
 };
 
-/// Any number of scans, one frame: that of the first scan. Every scan is registered to the one before
-/// it (the paper's iterative registration, without loop closure) and, where that link is not
-/// accepted, to the others that have a place, latest first. A scan that no link holds stays without a
-/// place; it is never put at the identity in silence.
-/// Throws InvalidArgument if there are no scans.
+/// Any number of scans, one frame: that of the first scan. Every scan is registered to the one
+/// before it (the paper's iterative registration, without loop closure) and, where that link is not
+/// accepted, to the others that have a place, latest first. A scan that no link holds stays without
+/// a place; it is never put at the identity in silence. Throws InvalidArgument if there are no
+/// scans.
 ScanRegistration register_scans(std::span<const Scan> scans, std::uint64_t seed,
                                 const ScanRegistrationSettings& settings = {},
                                 const Context& context = {});

@@ -58,7 +58,8 @@ std::string lead(const Reconstruction& reconstruction) {
         text = fmt::format("A map of {}.", points);
     }
     if (has_labels(reconstruction)) {
-        text += fmt::format(" It shows {}.", counted(num_listed(reconstruction.scene), "component"));
+        text +=
+            fmt::format(" It shows {}.", counted(num_listed(reconstruction.scene), "component"));
     }
     return text;
 }

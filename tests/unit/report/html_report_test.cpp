@@ -147,7 +147,7 @@ TEST(RenderHtmlReport, ListsEveryComponentAndLink) {
     EXPECT_THAT(html, HasSubstr("All settings have their default values"));
     EXPECT_THAT(html, HasSubstr("Doubtful: wall-1."));
     EXPECT_THAT(html, HasSubstr("is ambiguous"));
-    EXPECT_THAT(html, HasSubstr("1 room with 2 components"));
+    EXPECT_THAT(html, HasSubstr("It shows 2 components"));
 }
 
 TEST(RenderHtmlReport, IsOneWellFormedFileThatNeedsNoNetwork) {

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: MIT
+#include "roomscribe/interpretation/level_surfaces.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "roomscribe/core/units.hpp"
+
+namespace roomscribe {
+namespace {
+
+/// Ramps in buildings rise by at most 6 degrees (10 %); the rest is for the plane's and up's error.
+constexpr double max_slope = radians(10.0);
+/// Against the largest level, what has less than this share of its area makes no floor or ceiling
+/// of its own. A floor under furniture shows at least that much.
+constexpr double min_level_share = 0.05;
+/// The largest table is larger, but a floor of which less was seen is not worth a name.
+constexpr double min_level_area = 0.5;
+/// Podiums, ramps and thresholds lie lower than seats (0.4 m and more).
+constexpr double max_step = 0.35;
+/// Slabs are thicker.
+constexpr double min_slab = 0.05;
+
+std::vector<Level> find_levels(std::span<const PlanarPatch> patches, const Eigen::Vector3d& up,
+                               bool facing_is_known, double tolerance) {
+    std::vector<std::uint32_t> order;
+    for (std::uint32_t i = 0; i < patches.size(); ++i) {
+        if (std::abs(patches[i].plane.normal.dot(up)) >= std::cos(max_slope)) order.push_back(i);
+    }
+    const auto height = [&](std::uint32_t patch) { return patches[patch].centroid.dot(up); };
+    // The largest first, so that levels form about floors and not about what lies on them.
+    std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+        return patches[a].area > patches[b].area;
+    });
+    std::vector<Level> levels;
+    for (const std::uint32_t patch : order) {
+        Level* nearest = nullptr;
+        double distance = tolerance;
+        for (Level& level : levels) {
+            if (std::abs(level.height - height(patch)) > distance) continue;
+            distance = std::abs(level.height - height(patch));
+            nearest = &level;
+        }
+        if (nearest == nullptr) nearest = &levels.emplace_back();
+        const double area = patches[patch].area;
+        nearest->height =
+            (nearest->height * nearest->area + height(patch) * area) / (nearest->area + area);
+        nearest->area += area;
+        if (facing_is_known) {
+            nearest->facing_up += patches[patch].plane.normal.dot(up) > 0.0 ? area : -area;
+        }
+        nearest->patches.push_back(patch);
+    }
+    std::sort(levels.begin(), levels.end(),
+              [](const Level& a, const Level& b) { return a.height < b.height; });
+    return levels;
+}
+
+}  // namespace
+
+std::vector<Storey> find_storeys(std::span<const PlanarPatch> patches, const Eigen::Vector3d& up,
+                                 bool facing_is_known, const RoomSurfacesSettings& settings) {
+    const std::vector<Level> levels =
+        find_levels(patches, up, facing_is_known, settings.level_tolerance);
+    double largest = 0.0;
+    for (const Level& level : levels)
+        largest = std::max(largest, level.area);
+    std::vector<const Level*> large;
+    for (const Level& level : levels) {
+        if (level.area >= std::max(min_level_area, min_level_share * largest)) {
+            large.push_back(&level);
+        }
+    }
+    const auto may_be_floor = [](const Level* level) { return level->facing_up >= 0.0; };
+    const auto may_be_ceiling = [](const Level* level) { return level->facing_up <= 0.0; };
+
+    std::vector<Storey> storeys(1);
+    for (std::size_t i = 0; i < large.size(); ++i) {
+        const Level* level = large[i];
+        Storey& storey = storeys.back();
+        if (!storey.floor && storey.ceilings.empty() && may_be_floor(level)) {
+            storey.floor = *level;
+            continue;
+        }
+        // Higher than this, it is a seat.
+        if (storey.floor && level->height < storey.floor->height + max_step &&
+            may_be_floor(level)) {
+            storey.other_floors.push_back(*level);
+            if (level->area > storey.floor->area)
+                std::swap(*storey.floor, storey.other_floors.back());
+            continue;
+        }
+        const bool is_high =
+            !storey.floor || level->height >= storey.floor->height + settings.min_room_height;
+        if (!is_high) continue;
+        const bool has_ceiling_below =
+            !storey.ceilings.empty() && storey.ceilings.front().height <= level->height - min_slab;
+        const bool has_level_above =
+            large.back()->height >= level->height + settings.min_room_height;
+        if (has_ceiling_below && has_level_above && may_be_floor(level)) {
+            storeys.push_back({*level, {}, {}});
+        } else if (may_be_ceiling(level)) {
+            storey.ceilings.push_back(*level);
+        }
+    }
+    return storeys;
+}
+
+}  // namespace roomscribe

@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: MIT
+#include "roomscribe/interpretation/point_labels.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "roomscribe/core/error.hpp"
+#include "roomscribe/core/parallel.hpp"
+
+namespace roomscribe {
+namespace {
+
+constexpr std::size_t chunk = 8192;
+/// Beyond this many standard deviations, a point of a plane is a stray.
+constexpr double max_deviations = 2.5;
+constexpr std::uint32_t no_patch = std::numeric_limits<std::uint32_t>::max();
+
+/// The test of one point against one surface, in float: millimetres matter, micrometres do not.
+struct SurfaceTest {
+    Eigen::Vector3f normal;
+    float offset;
+    float tolerance;
+    /// Inner side: edge.head<3>() . x >= edge[3] for every edge.
+    std::vector<Eigen::Vector4f> edges;
+
+    float distance(const Eigen::Vector3f& point) const {
+        return std::abs(normal.dot(point) - offset);
+    }
+    bool is_inside(const Eigen::Vector3f& point) const {
+        return std::all_of(edges.begin(), edges.end(), [&](const Eigen::Vector4f& edge) {
+            return edge.head<3>().dot(point) >= edge[3];
+        });
+    }
+};
+
+SurfaceTest make_test(const RoomSurface& surface, double tolerance, double margin) {
+    SurfaceTest test;
+    test.normal = surface.plane.normal.cast<float>();
+    test.offset = static_cast<float>(surface.plane.offset);
+    test.tolerance = static_cast<float>(tolerance);
+    const auto& polygon = surface.component.polygon;
+    Eigen::Vector3d center = Eigen::Vector3d::Zero();
+    for (const Eigen::Vector3d& corner : polygon)
+        center += corner / static_cast<double>(polygon.size());
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+        const Eigen::Vector3d& from = polygon[i];
+        const Eigen::Vector3d& to = polygon[(i + 1) % polygon.size()];
+        Eigen::Vector3d inwards = surface.plane.normal.cross(to - from).normalized();
+        if (inwards.dot(center - from) < 0.0) inwards = -inwards;
+        Eigen::Vector4f edge;
+        edge << inwards.cast<float>(), static_cast<float>(inwards.dot(from) - margin);
+        test.edges.push_back(edge);
+    }
+    return test;
+}
+
+class Labeller {
+  public:
+    Labeller(const SurfaceSample& sample, std::span<const PlanarPatch> patches,
+             const RoomSurfaces& surfaces, const PointLabelSettings& settings)
+        : sample_(sample), patches_(patches), surfaces_(surfaces.surfaces) {
+        patch_of_voxel_.assign(sample.cloud.size(), no_patch);
+        surface_of_patch_.assign(patches.size(), -1);
+        for (std::size_t s = 0; s < surfaces_.size(); ++s) {
+            const double rms = surfaces_[s].component.evidence.rms.value_or(0.0);
+            const double tolerance = settings.distance_tolerance.value_or(
+                std::max(sample.tolerance, max_deviations * rms));
+            tests_.push_back(make_test(surfaces_[s], tolerance, sample.spacing));
+            for (const std::uint32_t patch : surfaces_[s].patches) {
+                surface_of_patch_[patch] = static_cast<std::int32_t>(s);
+            }
+        }
+        for (std::uint32_t patch = 0; patch < patches.size(); ++patch) {
+            for (const std::uint32_t voxel : patches[patch].points)
+                patch_of_voxel_[voxel] = patch;
+        }
+    }
+
+    /// Surfaces that any point of the voxel may belong to.
+    void candidates(std::uint32_t voxel, std::vector<std::uint16_t>& result) const {
+        result.clear();
+        const Eigen::Vector3f& center = sample_.cloud.positions[voxel];
+        // The centroid and any point of a voxel are at most its diagonal apart.
+        const float reach = static_cast<float>(std::sqrt(3.0) * sample_.voxel_size);
+        for (std::size_t s = 0; s < tests_.size(); ++s) {
+            if (tests_[s].distance(center) <= tests_[s].tolerance + reach) {
+                result.push_back(static_cast<std::uint16_t>(s));
+            }
+        }
+    }
+
+    /// Number of the surface that a point belongs to, or -1, and how far off it is in tolerances.
+    std::pair<std::int32_t, float> assign(const Eigen::Vector3f& point, std::uint32_t voxel,
+                                          std::span<const std::uint16_t> candidates) const {
+        std::pair<std::int32_t, float> best{-1, 1.0F};
+        for (const std::uint16_t s : candidates) {
+            const SurfaceTest& test = tests_[s];
+            const float deviation = test.distance(point) / test.tolerance;
+            if (deviation > best.second || !test.is_inside(point)) continue;
+            best = {s, deviation};
+        }
+        const std::uint32_t patch = patch_of_voxel_[voxel];
+        if (patch == no_patch || surface_of_patch_[patch] < 0) return best;
+        const std::int32_t own = surface_of_patch_[patch];
+        const Plane& plane = patches_[patch].plane;
+        const auto deviation = static_cast<float>(
+            std::abs(plane.signed_distance(point.cast<double>())) /
+            static_cast<double>(tests_[static_cast<std::size_t>(own)].tolerance));
+        if (deviation <= best.second) best = {own, deviation};
+        return best;
+    }
+
+  private:
+    const SurfaceSample& sample_;
+    std::span<const PlanarPatch> patches_;
+    std::span<const RoomSurface> surfaces_;
+    std::vector<SurfaceTest> tests_;
+    std::vector<std::uint32_t> patch_of_voxel_;
+    std::vector<std::int32_t> surface_of_patch_;
+};
+
+/// The candidates of every voxel, one list after another.
+struct CandidateTable {
+    std::vector<std::uint32_t> first;
+    std::vector<std::uint16_t> surfaces;
+
+    std::span<const std::uint16_t> of(std::uint32_t voxel) const {
+        return {surfaces.data() + first[voxel], first[voxel + 1] - first[voxel]};
+    }
+};
+
+CandidateTable find_candidates(const Labeller& labeller, std::size_t num_voxels) {
+    CandidateTable table;
+    table.first.reserve(num_voxels + 1);
+    table.first.push_back(0);
+    std::vector<std::uint16_t> found;
+    for (std::uint32_t voxel = 0; voxel < num_voxels; ++voxel) {
+        labeller.candidates(voxel, found);
+        table.surfaces.insert(table.surfaces.end(), found.begin(), found.end());
+        table.first.push_back(static_cast<std::uint32_t>(table.surfaces.size()));
+    }
+    return table;
+}
+
+}  // namespace
+
+PointLabels label_points(const PointCloud& map, const SurfaceSample& sample,
+                         std::span<const PlanarPatch> patches, const RoomSurfaces& surfaces,
+                         const PointLabelSettings& settings, const Context& context) {
+    check_settings(settings);
+    if (sample.voxel_of_point.size() != map.size()) {
+        throw InvalidArgument("map", std::to_string(map.size()) + " points",
+                              "the points that the sample was made of");
+    }
+    PointLabels result;
+    result.labels.assign(map.size(), Label::unknown);
+    result.instances.assign(map.size(), -1);
+    result.confidences.assign(map.size(), 0.0F);
+    const Labeller labeller(sample, patches, surfaces, settings);
+    const CandidateTable candidates = find_candidates(labeller, sample.cloud.size());
+    parallel_for(context, map.size(), chunk, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            const std::uint32_t voxel = sample.voxel_of_point[i];
+            if (voxel == no_voxel) continue;
+            const auto [surface, deviation] =
+                labeller.assign(map.positions[i], voxel, candidates.of(voxel));
+            if (surface < 0) continue;
+            const Component& component =
+                surfaces.surfaces[static_cast<std::size_t>(surface)].component;
+            result.labels[i] = component.label;
+            result.instances[i] = component.instance;
+            // At the tolerance, half of the confidence is left.
+            result.confidences[i] =
+                static_cast<float>(component.confidence) * (1.0F - 0.5F * deviation * deviation);
+        }
+    });
+    return result;
+}
+
+}  // namespace roomscribe

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "roomscribe/geometry/plane.hpp"
+
+namespace roomscribe {
+
+/// A connected piece of planar surface. Coplanar pieces that do not touch are separate patches.
+struct PlanarPatch {
+    /// Least-squares plane of the points. Its normal looks where most of the points' own normals
+    /// look: to the scanner, where those do.
+    Plane plane;
+    std::vector<std::uint32_t> points;  ///< numbers in the cloud it was found in, ascending
+    Eigen::Vector3d centroid = Eigen::Vector3d::Zero();
+    double rms = 0.0;   ///< m, of the points about the plane
+    double area = 0.0;  ///< m2, see occupied_area
+};
+
+/// Area of the surface that points on a plane stand for: the squares of edge `cell_size` on the
+/// plane that hold a point. Points further apart than `cell_size` count a square each.
+double occupied_area(std::span<const Eigen::Vector3f> positions,
+                     std::span<const std::uint32_t> points, const Plane& plane, double cell_size);
+
+}  // namespace roomscribe

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "roomscribe/core/context.hpp"
+#include "roomscribe/core/settings.hpp"
+#include "roomscribe/model/scan.hpp"
+#include "roomscribe/preprocessing/scan_statistics.hpp"
+#include "roomscribe/preprocessing/voxel_grid.hpp"
+
+namespace roomscribe {
+
+/// The map thinned to an even sample of its surfaces: what planes are looked for in, so that the
+/// density near a scanner does not decide.
+struct SurfaceSample {
+    PointCloud cloud;  ///< centroid and unit normal (NaN where there is none) per voxel
+    std::vector<std::uint32_t> voxel_of_point;  ///< per map point: its voxel, or no_voxel
+    /// Every normal looks to a scanner that saw the point. False when no section of the map knows
+    /// where it was seen from: then the normals' signs mean nothing.
+    bool normals_face_scanner = false;
+    std::vector<Eigen::Vector3d> sensor_positions;  ///< the known ones
+    double voxel_size = 0.0;                        ///< m
+    /// m, distance of neighbouring points of the sample where the surface is sampled as most of it.
+    double spacing = 0.0;
+    /// m, standard deviation of the points about smooth surface: that of the statistics, or the
+    /// lower quartile over the sample where that is more.
+    double noise = 0.0;
+    /// m, how far a point of a plane may lie from it: see plane_tolerance.
+    double tolerance = 0.0;
+};
+
+struct SurfaceSampleSettings {
+    std::optional<double> voxel_size;
+    int num_neighbors = 16;
+
+    void visit(SettingVisitor& visitor) {
+        visitor(voxel_size, {.name = "voxel_size",
+                             .unit = "m",
+                             .min = 1e-6,
+                             .max = 1e6,
+                             .doc = "Edge of a voxel of the surface sample; auto: half the point "
+                                    "spacing, at least 0.04 m."});
+        visitor(
+            num_neighbors,
+            {.name = "num_neighbors",
+             .unit = "",
+             .min = 3,
+             .max = 1000,
+             .doc = "Nearest voxels, the voxel itself among them, that a normal is fitted to."});
+    }
+};
+
+/// Edge of the voxels for a surface with these statistics: half the point spacing, so that only
+/// what is denser than most of the surface is thinned, but not under 0.04 m, the width of the
+/// narrowest planar thing that a room model shows (a door frame's face).
+double surface_voxel_size(const ScanStatistics& statistics);
+
+/// How far a point of a planar surface may lie from its plane: 3 standard deviations of noise and
+/// the unevenness that building practice allows finished walls (DIN 18202: 10 mm over 4 m), as
+/// independent errors.
+double plane_tolerance(double noise);
+
+/// Voxel grid, normals, and their signs by vote of the scanners that saw each voxel. Empty for a
+/// map without finite points.
+SurfaceSample sample_surface(const ScanMap& map, const ScanStatistics& statistics,
+                             const SurfaceSampleSettings& settings = {},
+                             const Context& context = {});
+
+}  // namespace roomscribe

@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "roomscribe/core/error.hpp"
+#include "roomscribe/core/random.hpp"
+#include "roomscribe/interpretation/point_labels.hpp"
+#include "roomscribe/interpretation/room_surfaces.hpp"
+#include "roomscribe/interpretation/upright.hpp"
+#include "roomscribe/preprocessing/scan_statistics.hpp"
+#include "roomscribe/structure/plane_growing.hpp"
+#include "roomscribe/structure/principal_axes.hpp"
+#include "support/sampled_room.hpp"
+
+namespace roomscribe {
+namespace {
+
+struct Interpretation {
+    SurfaceSample sample;
+    std::vector<PlanarPatch> patches;
+    Upright upright;
+    RoomSurfaces surfaces;
+    PointLabels labels;
+};
+
+Interpretation interpret(PointCloud cloud, const Context& context = {}) {
+    Interpretation result;
+    const ScanMap map = map_of_cloud({"room", std::move(cloud)});
+    const ScanStatistics statistics = estimate_scan_statistics(map.cloud, context);
+    result.sample = sample_surface(map, statistics, {}, context);
+    const PlaneGrowingSettings growing{.distance_tolerance = result.sample.tolerance,
+                                       .cell_size = 2.0 * result.sample.spacing};
+    result.patches = grow_planar_patches(result.sample.cloud, growing, context);
+    const PrincipalAxes axes = estimate_principal_axes(result.patches, {}, context);
+    result.upright = find_upright(result.sample, result.patches, axes, {}, context);
+    result.surfaces =
+        find_room_surfaces(result.sample, result.patches, result.upright, {}, context);
+    result.labels =
+        label_points(map.cloud, result.sample, result.patches, result.surfaces, {}, context);
+    return result;
+}
+
+Context with_threads(int count) {
+    Context context;
+    context.num_threads = count;
+    return context;
+}
+
+Transform random_pose(Random& random) {
+    const Eigen::Quaterniond turn(random.normal(), random.normal(), random.normal(),
+                                  random.normal());
+    Transform pose = Transform::Identity();
+    pose.linear() = turn.normalized().toRotationMatrix();
+    pose.translation() = Eigen::Vector3d(random.normal(), random.normal(), random.normal());
+    return pose;
+}
+
+double iou(const std::vector<Label>& truth, const std::vector<Label>& found, Label label) {
+    std::size_t both = 0;
+    std::size_t either = 0;
+    for (std::size_t i = 0; i < truth.size(); ++i) {
+        both += truth[i] == label && found[i] == label ? 1 : 0;
+        either += truth[i] == label || found[i] == label ? 1 : 0;
+    }
+    return static_cast<double>(both) / static_cast<double>(either);
+}
+
+std::ptrdiff_t count(const RoomSurfaces& surfaces, Label label) {
+    return std::count_if(surfaces.surfaces.begin(), surfaces.surfaces.end(),
+                         [label](const auto& s) { return s.component.label == label; });
+}
+
+TEST(Interpretation, LevelsAndLabelsAFurnishedRoomInAnyPose) {
+    const test::SampledRoom room = test::sample_room(900.0, 0.004, 3);
+    Random random(17);
+    std::vector<Transform> poses{Transform::Identity(), Transform::Identity()};
+    poses[1].linear() = Eigen::AngleAxisd(3.14159265, Eigen::Vector3d::UnitX()).toRotationMatrix();
+    for (int i = 0; i < 3; ++i)
+        poses.push_back(random_pose(random));
+    for (const Transform& pose : poses) {
+        PointCloud cloud = room.cloud;
+        transform_in_place(cloud, pose);
+        const Interpretation found = interpret(std::move(cloud));
+        EXPECT_EQ(found.upright.stop, UprightStop::decided);
+        EXPECT_GT(found.upright.up().dot(pose.linear().col(2)), std::cos(0.01));
+        EXPECT_EQ(count(found.surfaces, Label::floor), 1);
+        EXPECT_EQ(count(found.surfaces, Label::ceiling), 1);
+        EXPECT_EQ(count(found.surfaces, Label::wall), 4);
+        EXPECT_GE(iou(room.labels, found.labels.labels, Label::floor), 0.95);
+        EXPECT_GE(iou(room.labels, found.labels.labels, Label::ceiling), 0.95);
+        EXPECT_GE(iou(room.labels, found.labels.labels, Label::wall), 0.9);
+
+        // The long walls run along x, the floor lies at z = 0, the surfaces begin at x = y = 0.
+        const Transform room_from_room = found.surfaces.room_from_map * pose;
+        EXPECT_NEAR(std::abs(room_from_room.linear()(0, 0)), 1.0, 1e-3);
+        EXPECT_NEAR((room_from_room * Eigen::Vector3d(2.5, 2.0, 0.0)).z(), 0.0, 0.01);
+        EXPECT_NEAR((room_from_room * Eigen::Vector3d(2.5, 2.0, 0.0)).x(), 2.5, 0.06);
+        for (const RoomSurface& surface : found.surfaces.surfaces) {
+            // Everything looks into the room.
+            const Eigen::Vector3d middle = pose * Eigen::Vector3d(2.5, 2.0, 1.35);
+            EXPECT_GT(surface.plane.signed_distance(middle), 0.0) << surface.component.id;
+            EXPECT_FALSE(surface.component.evidence.rule.empty());
+            if (surface.component.label == Label::wall) {
+                EXPECT_EQ(surface.component.polygon.size(), 4U);
+            }
+        }
+    }
+}
+
+TEST(Interpretation, ChoosesTheSameRoomFrameHoweverTheMapWasTurned) {
+    const test::SampledRoom room = test::sample_room(900.0, 0.004, 5);
+    const Interpretation first = interpret(room.cloud);
+    Random random(23);
+    const Transform pose = random_pose(random);
+    PointCloud cloud = room.cloud;
+    transform_in_place(cloud, pose);
+    const Interpretation second = interpret(std::move(cloud));
+    const Transform difference =
+        second.surfaces.room_from_map * pose * first.surfaces.room_from_map.inverse();
+    EXPECT_LT(rotation_angle(difference.linear()), 0.01);
+    EXPECT_LT(difference.translation().norm(), 0.1);
+}
+
+TEST(Interpretation, GivesTheSameBitsOnOneAndTwoThreads) {
+    const test::SampledRoom room = test::sample_room(500.0, 0.005, 7);
+    const Interpretation one = interpret(room.cloud, with_threads(1));
+    const Interpretation two = interpret(room.cloud, with_threads(2));
+    EXPECT_EQ(one.labels.labels, two.labels.labels);
+    EXPECT_EQ(one.labels.instances, two.labels.instances);
+    EXPECT_EQ(one.labels.confidences, two.labels.confidences);
+    EXPECT_EQ(one.surfaces.room_from_map.matrix(), two.surfaces.room_from_map.matrix());
+}
+
+TEST(Interpretation, KeepsPointsWithoutPlaceUnknown) {
+    test::SampledRoom room = test::sample_room(500.0, 0.005, 9);
+    const std::size_t total = room.cloud.size();
+    room.cloud.positions[0].x() = std::numeric_limits<float>::quiet_NaN();
+    room.cloud.positions[total - 1].setConstant(std::numeric_limits<float>::infinity());
+    const Interpretation found = interpret(room.cloud);
+    ASSERT_EQ(found.labels.labels.size(), total);
+    for (const std::size_t i : {std::size_t{0}, total - 1}) {
+        EXPECT_EQ(found.labels.labels[i], Label::unknown);
+        EXPECT_EQ(found.labels.instances[i], -1);
+        EXPECT_EQ(found.labels.confidences[i], 0.0F);
+    }
+    for (std::size_t i = 0; i < total; ++i) {
+        EXPECT_EQ(found.labels.labels[i] == Label::unknown, found.labels.instances[i] == -1);
+        EXPECT_GE(found.labels.confidences[i], 0.0F);
+        EXPECT_LE(found.labels.confidences[i], 1.0F);
+    }
+}
+
+TEST(Interpretation, FindsNothingInNextToNothing) {
+    EXPECT_EQ(interpret({}).upright.stop, UprightStop::no_plane);
+    PointCloud few;
+    for (int i = 0; i < 10; ++i) {
+        few.positions.emplace_back(static_cast<float>(i % 3), static_cast<float>(i % 4), 0.0F);
+    }
+    const Interpretation found = interpret(few);
+    EXPECT_TRUE(found.surfaces.surfaces.empty());
+    EXPECT_EQ(std::count(found.labels.labels.begin(), found.labels.labels.end(), Label::unknown),
+              10);
+    PointCloud equal;
+    equal.positions.assign(1000, Eigen::Vector3f(1, 2, 3));
+    EXPECT_TRUE(interpret(equal).surfaces.surfaces.empty());
+}
+
+TEST(Interpretation, CallsALonePlaneDoubtful) {
+    PointCloud cloud;
+    Random random(2);
+    for (int i = 0; i < 4000; ++i) {
+        cloud.positions.emplace_back(static_cast<float>(random.uniform()),
+                                     static_cast<float>(random.uniform()), 0.5F);
+    }
+    const Interpretation found = interpret(cloud);
+    EXPECT_EQ(found.upright.candidates.size(), 2U);
+    EXPECT_EQ(found.upright.stop, UprightStop::ambiguous);
+    for (const RoomSurface& surface : found.surfaces.surfaces) {
+        EXPECT_EQ(surface.component.verdict, Verdict::doubtful);
+        EXPECT_FALSE(surface.component.evidence.alternative.empty());
+    }
+}
+
+TEST(LabelPoints, RejectsASampleOfAnotherMap) {
+    const SurfaceSample sample;
+    PointCloud map;
+    map.positions.resize(3);
+    EXPECT_THROW(label_points(map, sample, {}, {}), InvalidArgument);
+}
+
+}  // namespace
+}  // namespace roomscribe
