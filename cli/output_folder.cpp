@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "cli/output_folder.hpp"
 
-#include <ranges>
+#include <algorithm>
 #include <system_error>
 #include <utility>
 
@@ -30,9 +30,9 @@ OutputFolder::~OutputFolder() {
 
 void OutputFolder::remove_empty_folders() {
     std::error_code not_empty;
-    for (const std::filesystem::path& folder : std::ranges::reverse_view(missing_)) {
+    std::for_each(missing_.rbegin(), missing_.rend(), [&](const std::filesystem::path& folder) {
         std::filesystem::remove(folder, not_empty);
-    }
+    });
 }
 
 }  // namespace roomscribe::cli

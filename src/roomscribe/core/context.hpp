@@ -12,9 +12,9 @@ struct Context {
     /// Threads to use; 0 means as many as the machine has.
     int num_threads = 0;
     /// Told at every step of a stage, from the calling thread; `fraction` is in [0, 1].
-    std::function<void(std::string_view stage, double fraction)> on_progress;
+    std::function<void(std::string_view stage, double fraction)> on_progress = {};
     /// Told what a user may want to know (a derived value, a doubtful input). Never an error.
-    std::function<void(std::string_view message)> on_message;
+    std::function<void(std::string_view message)> on_message = {};
     /// When it becomes true, the computation throws Cancelled at its next check.
     const std::atomic<bool>* cancel = nullptr;
 

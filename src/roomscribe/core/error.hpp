@@ -25,8 +25,8 @@ class InvalidArgument : public Error {
 
 /// Where in a file something is wrong: at a byte, in a line (counted from 1), or in the file whole.
 struct FilePosition {
-    std::optional<std::uint64_t> byte;
-    std::optional<std::uint64_t> line;
+    std::optional<std::uint64_t> byte = {};
+    std::optional<std::uint64_t> line = {};
 };
 
 /// A file that is missing, truncated, malformed or hostile, or that cannot be written. The message

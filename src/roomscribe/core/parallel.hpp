@@ -11,9 +11,9 @@
 namespace roomscribe {
 
 /// Calls `body(begin, end)` for consecutive chunks that cover [0, count), each of `chunk_size`
-/// items but for the last. The cut into chunks depends on the arguments alone and never on the
-/// number of threads, so a body that writes only to its own items gives the same bits on any
-/// machine. Throws Cancelled between chunks, and what a body throws.
+/// items but for the last (at least 1). The cut into chunks depends on the arguments alone and
+/// never on the number of threads, so a body that writes only to its own items gives the same bits
+/// on any machine. Throws Cancelled between chunks, and what a body throws.
 void parallel_for(const Context& context, std::size_t count, std::size_t chunk_size,
                   const std::function<void(std::size_t begin, std::size_t end)>& body);
 

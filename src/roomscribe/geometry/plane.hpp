@@ -45,7 +45,7 @@ std::optional<PlaneFit> fit_plane(std::span<const Eigen::Vector3f> points);
 std::optional<PlaneFit> fit_plane(std::span<const Eigen::Vector3f> points,
                                   std::span<const std::uint32_t> indices);
 
-/// Sums from which a plane is fitted without keeping the points; sums of parts add up.
+/// Sums from which a plane is fitted without keeping the points.
 struct PlaneMoments {
     std::size_t count = 0;
     Eigen::Vector3d reference = Eigen::Vector3d::Zero();  ///< sums are taken relative to it

@@ -19,6 +19,8 @@ constexpr double min_level_share = 0.05;
 constexpr double min_level_area = 0.5;
 /// Podiums, ramps and thresholds lie lower than seats (0.4 m and more).
 constexpr double max_step = 0.35;
+/// Ceilings under a roof slope by up to this much; steeper, it is a wall.
+constexpr double max_ceiling_slope = radians(45.0);
 /// Slabs are thicker.
 constexpr double min_slab = 0.05;
 
@@ -55,6 +57,23 @@ std::vector<Level> find_levels(std::span<const PlanarPatch> patches, const Eigen
     std::sort(levels.begin(), levels.end(),
               [](const Level& a, const Level& b) { return a.height < b.height; });
     return levels;
+}
+
+/// Each goes to the highest storey whose floor lies a room's height below it.
+void add_sloping_ceilings(std::vector<Storey>& storeys, std::span<const PlanarPatch> patches,
+                          const Eigen::Vector3d& up, bool facing_is_known, double room_height) {
+    for (std::uint32_t i = 0; i < patches.size(); ++i) {
+        const double cosine = patches[i].plane.normal.dot(up);
+        if (patches[i].area < min_level_area || (facing_is_known && cosine > 0.0)) continue;
+        if (std::abs(cosine) >= std::cos(max_slope)) continue;
+        if (std::abs(cosine) < std::cos(max_ceiling_slope)) continue;
+        const double height = patches[i].centroid.dot(up) - room_height;
+        const auto below =
+            std::find_if(storeys.rbegin(), storeys.rend(), [height](const Storey& storey) {
+                return storey.floor && storey.floor->height <= height;
+            });
+        if (below != storeys.rend()) below->sloping_ceilings.push_back(i);
+    }
 }
 
 }  // namespace
@@ -99,11 +118,12 @@ std::vector<Storey> find_storeys(std::span<const PlanarPatch> patches, const Eig
         const bool has_level_above =
             large.back()->height >= level->height + settings.min_room_height;
         if (has_ceiling_below && has_level_above && may_be_floor(level)) {
-            storeys.push_back({*level, {}, {}});
+            storeys.push_back({*level, {}, {}, {}});
         } else if (may_be_ceiling(level)) {
             storey.ceilings.push_back(*level);
         }
     }
+    add_sloping_ceilings(storeys, patches, up, facing_is_known, settings.min_room_height);
     return storeys;
 }
 

@@ -22,37 +22,45 @@ struct SurfaceTest {
     Eigen::Vector3f normal;
     float offset;
     float tolerance;
-    /// Inner side: edge.head<3>() . x >= edge[3] for every edge.
-    std::vector<Eigen::Vector4f> edges;
+    /// Two directions along the plane, in which the polygon is given.
+    Eigen::Vector3f u;
+    Eigen::Vector3f v;
+    float margin;  ///< m, beyond the polygon
+    std::vector<Eigen::Vector2f> corners;
 
     float distance(const Eigen::Vector3f& point) const {
         return std::abs(normal.dot(point) - offset);
     }
-    bool is_inside(const Eigen::Vector3f& point) const {
-        return std::all_of(edges.begin(), edges.end(), [&](const Eigen::Vector4f& edge) {
-            return edge.head<3>().dot(point) >= edge[3];
-        });
-    }
+    bool is_inside(const Eigen::Vector3f& point) const;
 };
+
+/// Even-odd rule, or near an edge.
+bool SurfaceTest::is_inside(const Eigen::Vector3f& point) const {
+    const Eigen::Vector2f p(u.dot(point), v.dot(point));
+    bool inside = false;
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+        const Eigen::Vector2f& a = corners[i];
+        const Eigen::Vector2f edge = corners[i + 1 == corners.size() ? 0 : i + 1] - a;
+        const Eigen::Vector2f offset = p - a;
+        const float along = std::clamp(offset.dot(edge) / std::max(edge.squaredNorm(), 1e-12F), 0.0F, 1.0F);
+        if ((offset - along * edge).squaredNorm() <= margin * margin) return true;
+        if ((offset.y() < 0.0F) == (offset.y() < edge.y())) continue;
+        if (offset.x() < edge.x() * offset.y() / edge.y()) inside = !inside;
+    }
+    return inside;
+}
 
 SurfaceTest make_test(const RoomSurface& surface, double tolerance, double margin) {
     SurfaceTest test;
     test.normal = surface.plane.normal.cast<float>();
     test.offset = static_cast<float>(surface.plane.offset);
     test.tolerance = static_cast<float>(tolerance);
-    const auto& polygon = surface.component.polygon;
-    Eigen::Vector3d center = Eigen::Vector3d::Zero();
-    for (const Eigen::Vector3d& corner : polygon)
-        center += corner / static_cast<double>(polygon.size());
-    for (std::size_t i = 0; i < polygon.size(); ++i) {
-        const Eigen::Vector3d& from = polygon[i];
-        const Eigen::Vector3d& to = polygon[(i + 1) % polygon.size()];
-        Eigen::Vector3d inwards = surface.plane.normal.cross(to - from).normalized();
-        if (inwards.dot(center - from) < 0.0) inwards = -inwards;
-        Eigen::Vector4f edge;
-        edge << inwards.cast<float>(), static_cast<float>(inwards.dot(from) - margin);
-        test.edges.push_back(edge);
-    }
+    const PlaneAxes axes = plane_axes(surface.plane.normal);
+    test.u = axes.u.cast<float>();
+    test.v = axes.v.cast<float>();
+    test.margin = static_cast<float>(margin);
+    for (const Eigen::Vector3d& corner : surface.component.polygon)
+        test.corners.emplace_back(corner.dot(axes.u), corner.dot(axes.v));
     return test;
 }
 
@@ -95,20 +103,22 @@ class Labeller {
     std::pair<std::int32_t, float> assign(const Eigen::Vector3f& point, std::uint32_t voxel,
                                           std::span<const std::uint16_t> candidates) const {
         std::pair<std::int32_t, float> best{-1, 1.0F};
+        // Its own patch first: then most other surfaces are out of the question.
+        const std::uint32_t patch = patch_of_voxel_[voxel];
+        const std::int32_t own = patch == no_patch ? -1 : surface_of_patch_[patch];
+        if (own >= 0) {
+            const Plane& plane = patches_[patch].plane;
+            const auto deviation = static_cast<float>(
+                std::abs(plane.signed_distance(point.cast<double>())) /
+                static_cast<double>(tests_[static_cast<std::size_t>(own)].tolerance));
+            if (deviation <= best.second) best = {own, deviation};
+        }
         for (const std::uint16_t s : candidates) {
             const SurfaceTest& test = tests_[s];
             const float deviation = test.distance(point) / test.tolerance;
-            if (deviation > best.second || !test.is_inside(point)) continue;
-            best = {s, deviation};
+            const bool is_nearer = best.first < 0 ? deviation <= 1.0F : deviation < best.second;
+            if (is_nearer && (s == own || test.is_inside(point))) best = {s, deviation};
         }
-        const std::uint32_t patch = patch_of_voxel_[voxel];
-        if (patch == no_patch || surface_of_patch_[patch] < 0) return best;
-        const std::int32_t own = surface_of_patch_[patch];
-        const Plane& plane = patches_[patch].plane;
-        const auto deviation = static_cast<float>(
-            std::abs(plane.signed_distance(point.cast<double>())) /
-            static_cast<double>(tests_[static_cast<std::size_t>(own)].tolerance));
-        if (deviation <= best.second) best = {own, deviation};
         return best;
     }
 

@@ -10,6 +10,8 @@
 
 #include "roomscribe/geometry/polygon.hpp"
 #include "roomscribe/interpretation/level_surfaces.hpp"
+#include "roomscribe/interpretation/outline.hpp"
+#include "roomscribe/interpretation/storey_extent.hpp"
 #include "roomscribe/interpretation/wall_surfaces.hpp"
 
 namespace roomscribe {
@@ -18,6 +20,10 @@ namespace {
 /// The largest tables are smaller: of less, a floor and a table top cannot be told apart when
 /// nothing else is seen.
 constexpr double max_table_area = 2.5;
+/// What stands before a wall hides a floor's rim to this depth: the outline does not follow it.
+constexpr double max_furniture_depth = 1.0;
+/// Deviation of an outline, about the spacing of the sample.
+constexpr double outline_tolerance = 0.05;
 
 class SurfaceBuilder {
   public:
@@ -30,6 +36,7 @@ class SurfaceBuilder {
           up_(upright.up()) {}
 
     void add_level(const Level& level, Label label, const Storey& storey);
+    void add_sloping_ceiling(std::uint32_t patch, const Storey& storey);
     void add_wall(const UprightSurface& surface, const WallJudgement& judgement,
                   std::span<const UprightSurface> others, const Storey& storey);
     std::vector<RoomSurface> take() && { return std::move(surfaces_); }
@@ -81,8 +88,9 @@ void SurfaceBuilder::add_level(const Level& level, Label label, const Storey& st
     }
 
     Component& component = surface.component;
-    const std::vector<Eigen::Vector2d> hull = convex_hull(corners);
-    for (const Eigen::Vector2d& corner : hull) {
+    const std::vector<Eigen::Vector2d> outline =
+        concave_outline(corners, max_furniture_depth, outline_tolerance);
+    for (const Eigen::Vector2d& corner : outline) {
         // Straight up or down onto the plane.
         const Eigen::Vector3d level_corner = corner.x() * x_ + corner.y() * y_;
         const double height =
@@ -90,7 +98,7 @@ void SurfaceBuilder::add_level(const Level& level, Label label, const Storey& st
         component.polygon.emplace_back(level_corner + height * up_);
     }
     component.evidence.rms = fit ? fit->rms : 0.0;
-    component.evidence.coverage = std::min(1.0, level.area / std::max(signed_area(hull), 1e-12));
+    component.evidence.coverage = std::min(1.0, level.area / std::max(signed_area(outline), 1e-12));
     const bool is_paired = storey.floor && !storey.ceilings.empty();
     component.confidence = is_paired ? 0.95 : 0.75;
     component.verdict = Verdict::accepted;
@@ -106,6 +114,20 @@ void SurfaceBuilder::add_level(const Level& level, Label label, const Storey& st
         component.evidence.rule = "large level surface that looks down; no floor seen";
     }
     surfaces_.push_back(std::move(surface));
+}
+
+void SurfaceBuilder::add_sloping_ceiling(std::uint32_t patch, const Storey& storey) {
+    Level level;
+    level.height = patches_[patch].centroid.dot(up_);
+    level.area = patches_[patch].area;
+    level.patches = {patch};
+    add_level(level, Label::ceiling, storey);
+    Component& component = surfaces_.back().component;
+    component.evidence.rule = "sloping surface at least a room's height above the floor, "
+                              "nothing above it";
+    component.evidence.alternative = "underside of something that leans";
+    component.confidence = 0.6;
+    component.verdict = Verdict::doubtful;
 }
 
 /// Whether the room lies behind the plane. A face with its other face close behind looks away from
@@ -219,8 +241,18 @@ RoomSurfaces find_room_surfaces(const SurfaceSample& sample, std::span<const Pla
     check_settings(settings);
     RoomSurfaces result;
     const Eigen::Vector3d up = upright.up();
-    const std::vector<Storey> storeys =
-        find_storeys(patches, up, upright.facing_is_known, settings);
+    const StoreyExtent extent(sample, patches, upright.room_from_map.row(0).transpose(),
+                              upright.room_from_map.row(1).transpose(), settings.max_gap);
+    std::vector<Storey> storeys = find_storeys(patches, up, upright.facing_is_known, settings);
+    for (Storey& storey : storeys) {
+        std::erase_if(storey.ceilings, [&](const Level& ceiling) {
+            return ceiling.area < max_table_area && !extent.is_topmost(ceiling.patches, up);
+        });
+        std::erase_if(storey.sloping_ceilings, [&](std::uint32_t patch) {
+            return !extent.is_topmost({&patch, 1}, up);
+        });
+        storey = extent.without_outside(storey);
+    }
     SurfaceBuilder builder(sample, patches, upright);
     for (const Storey& storey : storeys) {
         if (storey.floor) builder.add_level(*storey.floor, Label::floor, storey);
@@ -230,6 +262,8 @@ RoomSurfaces find_room_surfaces(const SurfaceSample& sample, std::span<const Pla
     for (const Storey& storey : storeys) {
         for (const Level& ceiling : storey.ceilings)
             builder.add_level(ceiling, Label::ceiling, storey);
+        for (const std::uint32_t patch : storey.sloping_ceilings)
+            builder.add_sloping_ceiling(patch, storey);
     }
     constexpr double infinity = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < storeys.size(); ++i) {
@@ -239,7 +273,7 @@ RoomSurfaces find_room_surfaces(const SurfaceSample& sample, std::span<const Pla
         const auto surfaces = find_upright_surfaces(sample, patches, up, from, to, settings);
         for (const UprightSurface& surface : surfaces) {
             const WallJudgement judgement = judge_wall(surface, surfaces, storeys[i], settings);
-            if (judgement.is_wall) builder.add_wall(surface, judgement, surfaces, storeys[i]);
+            if (judgement.is_wall && extent.is_beside(surface, storeys[i])) builder.add_wall(surface, judgement, surfaces, storeys[i]);
         }
     }
     result.surfaces = std::move(builder).take();

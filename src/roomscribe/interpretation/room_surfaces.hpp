@@ -91,9 +91,10 @@ struct RoomSurfacesSettings {
 /// patches, taken together across doors, windows and furniture, that reach the ceiling
 /// (section 4.4), that close the room (next to nothing was seen behind them), or, where no ceiling
 /// was seen, are taller than furniture; unless a taller parallel surface stands closely behind
-/// them: then they are a cupboard's front.
+/// them: then they are a cupboard's front. What lies further than `max_gap` from floor and ceiling
+/// was seen through windows and is left out. Sloping ceilings (under roofs) are doubtful ones.
 ///
-/// `component.polygon` is the convex outline of a floor or ceiling, and the rectangle from floor to
+/// `component.polygon` is the outline of a floor or ceiling, simple but not convex, and the rectangle from floor to
 /// ceiling of a wall (to the end of what was seen, where there is no floor or ceiling). Nothing
 /// found gives an empty table.
 RoomSurfaces find_room_surfaces(const SurfaceSample& sample, std::span<const PlanarPatch> patches,

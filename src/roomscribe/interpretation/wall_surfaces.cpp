@@ -9,10 +9,15 @@
 namespace roomscribe {
 namespace {
 
-/// Walls lean by millimetres; the rest is for the plane's and up's error.
-constexpr double max_lean = radians(10.0);
+/// Walls lean by millimetres; tilting laser scanners bend them by up to 12 degrees at the top of
+/// what they see. Nothing else in a building leans by so little: mansard walls and stairs' cheeks
+/// lean by 20 degrees and more.
+constexpr double max_lean = radians(15.0);
 /// Pieces of one wall agree in direction up to the error of a small piece's normal.
 constexpr double max_turn = radians(5.0);
+/// Pieces that are less far apart across the wall are one: bends, panels, door leaves. The thinnest
+/// partition has its other face 0.1 m away, the shallowest cupboard its front 0.2 m.
+constexpr double max_offset = 0.08;
 /// Share of a patch's points that its extent leaves out at either end: strays.
 constexpr double stray_share = 0.005;
 /// Skirtings, cables and boxes hide a wall's foot up to here.
@@ -85,11 +90,11 @@ class WallJoiner {
 };
 
 bool WallJoiner::belongs(const UprightSurface& surface, const PlanarPatch& patch) const {
-    const double cosine = surface.plane.normal.dot(patch.plane.normal);
+    const double cosine = surface.plane.normal.dot(upright_plane(patch, up_).normal);
     const double agreement = sample_.normals_face_scanner ? cosine : std::abs(cosine);
     if (agreement < std::cos(max_turn)) return false;
     // Two errors of the same kind: the surface's and the patch's.
-    const double tolerance = std::sqrt(2.0) * sample_.tolerance;
+    const double tolerance = std::max(std::sqrt(2.0) * sample_.tolerance, max_offset);
     if (std::abs(surface.plane.signed_distance(patch.centroid)) > tolerance) return false;
     const Extent width = extent_along(sample_, patch, surface.along);
     const Extent height = extent_along(sample_, patch, up_);
@@ -165,7 +170,7 @@ bool stands_before_wall(const UprightSurface& surface, std::span<const UprightSu
         const Eigen::Vector3d middle = 0.5 * (surface.start + surface.end) * surface.along +
                                        surface.plane.offset * surface.plane.normal;
         const double distance = std::abs(other.plane.signed_distance(middle));
-        if (distance > max_cupboard_depth) continue;
+        if (distance < max_offset || distance > max_cupboard_depth) continue;
         const double sign = other.along.dot(surface.along) < 0.0 ? -1.0 : 1.0;
         const double start = sign * (sign > 0.0 ? surface.start : surface.end);
         const double end = sign * (sign > 0.0 ? surface.end : surface.start);
@@ -202,13 +207,14 @@ WallJudgement judge_wall(const UprightSurface& surface, std::span<const UprightS
     judgement.reaches_floor = storey.floor && surface.bottom <= storey.floor->height + floor_reach;
     judgement.reaches_ceiling = ceiling && surface.top >= *ceiling - settings.ceiling_reach;
     const bool touches_ceiling = ceiling && surface.top >= *ceiling - cupboard_clearance;
-    // Under a ceiling, what stops short of it is furniture at the edge of what was seen.
-    const bool closes_room = storey.floor && !ceiling && surface.share_behind <= max_share_behind &&
+    const bool closes_room = storey.floor && surface.share_behind <= max_share_behind &&
                              surface.area >= min_closing_area;
-    const bool is_tall = !ceiling && surface.height() >= settings.min_free_wall_height;
+    const bool is_tall = surface.height() >= settings.min_free_wall_height;
+    const bool is_wall = ceiling ? judgement.reaches_ceiling || (closes_room && is_tall)
+                                 : closes_room || is_tall;
 
     if (surface.height() < settings.min_wall_height) return judgement;
-    if (!judgement.reaches_ceiling && !is_tall && !closes_room) return judgement;
+    if (!is_wall) return judgement;
     if (!touches_ceiling && stands_before_wall(surface, others)) return judgement;
 
     judgement.is_wall = true;
@@ -219,7 +225,8 @@ WallJudgement judge_wall(const UprightSurface& surface, std::span<const UprightS
                            (judgement.reaches_floor ? 0.15 : 0.0) + (closes_room ? 0.15 : 0.0) +
                            (surface.area >= min_closing_area ? 0.1 : 0.0);
     judgement.confidence = std::min(judgement.confidence, 0.99);
-    if (!judgement.reaches_ceiling && !judgement.reaches_floor) {
+    // Under a ceiling, what stops short of it may be furniture at the edge of what was seen.
+    if (!judgement.reaches_ceiling && (ceiling || !judgement.reaches_floor)) {
         judgement.alternative = "front or side of a tall piece of furniture";
     }
     return judgement;

@@ -47,8 +47,13 @@ std::vector<std::uint32_t> remove_outliers(std::span<const Eigen::Vector3f> posi
     std::vector<double> deviations(log_distances.size());
     std::transform(log_distances.begin(), log_distances.end(), deviations.begin(),
                    [center](double value) { return std::abs(value - center); });
-    const double limit =
-        center + settings.max_deviations * deviation_from_mad * median(std::move(deviations));
+    // A cloud thinned to an even spacing has next to no deviation, and the rim of every surface,
+    // where neighbours stand on one side only, would count as outlying. Thinned laser scans deviate
+    // by more.
+    constexpr double min_deviation = 0.15;
+    const double deviation =
+        std::max(min_deviation, deviation_from_mad * median(std::move(deviations)));
+    const double limit = center + settings.max_deviations * deviation;
     for (std::uint32_t i = 0; i < positions.size(); ++i) {
         if (log_distances[i] <= limit) kept.push_back(i);
     }

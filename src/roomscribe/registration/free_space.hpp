@@ -53,9 +53,9 @@ class FreeSpace {
     std::vector<Cell> cells_;
 };
 
-/// Share of the points that stand clearly behind another point in the same narrow direction: a few
-/// per cent for a scan that really was taken from the sensor position, a quarter and more for a
-/// cloud that was merged from several places.
+/// Share of the points that stand clearly behind another point in the same narrow direction: below
+/// a fifth for a scan that really was taken from the sensor position, a third and more for a cloud
+/// that was merged from several places.
 double self_contradiction(std::span<const Eigen::Vector3f> positions,
                           const Eigen::Vector3d& sensor_position, double margin);
 

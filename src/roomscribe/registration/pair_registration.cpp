@@ -69,7 +69,7 @@ std::vector<Transform> find_initial_poses(std::span<const PointMatch> matches,
     return poses;
 }
 
-IcpSource icp_source(const SurfacePoints& points) {
+IcpSource icp_source(const OrientedPoints& points) {
     return {points.positions, points.normals};
 }
 
@@ -81,8 +81,7 @@ IcpTarget icp_target(const SurfacePoints& points) {
 Transform settle(const PreparedScan& source, const PreparedScan& target, const Transform& guess,
                  const RegistrationScale& scale, const PairRegistrationSettings& settings,
                  const Context& context) {
-    return align_icp({source.sample.positions, source.sample.normals}, icp_target(target.coarse),
-                     guess,
+    return align_icp(icp_source(source.coarse_sample), icp_target(target.coarse), guess,
                      {.method = settings.icp_method,
                       .max_correspondence_distance = icp_reach_in_voxels * scale.coarse_voxel,
                       .max_iterations = 30,
@@ -116,20 +115,16 @@ std::vector<VerifiedPose> verify_poses(const PreparedScan& source, const Prepare
 IcpResult refine(const PreparedScan& source, const PreparedScan& target, const Transform& guess,
                  const RegistrationScale& scale, const PairRegistrationSettings& settings,
                  const Context& context) {
-    IcpResult result;
-    result.target_from_source = guess;
-    for (const double reach : {2.0 * scale.coarse_voxel, 2.0 * scale.fine_voxel}) {
-        result =
-            align_icp(icp_source(source.fine), icp_target(target.fine), result.target_from_source,
-                      {.method = settings.icp_method,
-                       .max_correspondence_distance = reach,
-                       .max_iterations = settings.icp_max_iterations,
-                       // A hundredth of the noise is below what the data can tell.
-                       .min_error_change = 1e-3 * std::max(scale.noise, 1e-3)},
-                      context);
-        if (result.stop == IcpStop::too_few_pairs) break;
-    }
-    return result;
+    IcpSettings icp{.method = settings.icp_method,
+                    .max_correspondence_distance = 2.0 * scale.coarse_voxel,
+                    .max_iterations = settings.icp_max_iterations,
+                    // A step of a tenth of the noise is about what the data can tell.
+                    .min_error_change = 1e-2 * std::max(scale.noise, 1e-3)};
+    const IcpResult wide =
+        align_icp(icp_source(source.coarse_sample), icp_target(target.fine), guess, icp, context);
+    icp.max_correspondence_distance = 2.0 * scale.fine_voxel;
+    return align_icp(icp_source(source.fine_sample), icp_target(target.fine),
+                     wide.target_from_source, icp, context);
 }
 
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
@@ -276,8 +271,8 @@ PoseSupport measure_one_way(const PreparedScan& seen, const PreparedScan& judge,
         PoseSupport support;
         for (std::size_t i = begin; i < end; ++i) {
             const PointFate fate = judge_point(
-                judge, judge_from_seen * seen.sample.positions[i].cast<double>(),
-                judge_from_seen.linear() * seen.sample.normals[i].cast<double>(), scale);
+                judge, judge_from_seen * seen.coarse_sample.positions[i].cast<double>(),
+                judge_from_seen.linear() * seen.coarse_sample.normals[i].cast<double>(), scale);
             ++support.total;
             if (fate == PointFate::confirmed) ++support.confirmed;
             if (fate == PointFate::displaced) ++support.displaced;
@@ -285,8 +280,8 @@ PoseSupport measure_one_way(const PreparedScan& seen, const PreparedScan& judge,
         }
         return support;
     };
-    return parallel_reduce(context, seen.sample.positions.size(), 256, PoseSupport{}, judge_points,
-                           add);
+    return parallel_reduce(context, seen.coarse_sample.positions.size(), 256, PoseSupport{},
+                           judge_points, add);
 }
 
 /// Whether the scans support the refined pose.

@@ -22,9 +22,8 @@ SurfacePoints thin_to_surface(const Scan& scan, double voxel_size, const Context
     return {std::move(positions), std::move(normals), std::move(tree)};
 }
 
-/// Every n-th coarse point with a normal: enough for a share of them to be good to two per cent.
-OrientedPoints sample_surface(const SurfacePoints& points) {
-    constexpr std::size_t sample_size = 2500;
+/// Every n-th point with a normal, about so many.
+OrientedPoints sample_surface(const SurfacePoints& points, std::size_t sample_size) {
     const std::size_t stride = std::max<std::size_t>(1, points.positions.size() / sample_size);
     OrientedPoints sample;
     for (std::size_t i = 0; i < points.positions.size(); i += stride) {
@@ -68,16 +67,23 @@ PreparedScan prepare_scan(const Scan& scan, const RegistrationScale& scale,
         descriptors.col(static_cast<Eigen::Index>(i)) = all.col(keypoints[i]);
     }
 
-    // Rims contradict a few per cent of any honest scan.
-    constexpr double max_self_contradiction = 0.14;
+    // Rims contradict up to a fifth of an honest but thin scan, a merged cloud a third of itself.
+    constexpr double max_self_contradiction = 0.2;
     const bool free_space_is_valid =
         self_contradiction(scan.cloud.positions, scan.sensor_position(), 0.5 * scale.coarse_voxel) <
         max_self_contradiction;
+    // Shares of a sample of this size are good to two per cent, and a pose from so many pairs to
+    // less than a hundredth of the noise: more points cost time alone.
+    constexpr std::size_t coarse_sample_size = 2500;
+    constexpr std::size_t fine_sample_size = 15'000;
     const PointSpread spread = measure_spread(coarse.positions);
-    OrientedPoints sample = sample_surface(coarse);
+    SurfacePoints fine = thin_to_surface(scan, scale.fine_voxel, context);
+    OrientedPoints coarse_sample = sample_surface(coarse, coarse_sample_size);
+    OrientedPoints fine_sample = sample_surface(fine, fine_sample_size);
     return {std::move(coarse),
-            thin_to_surface(scan, scale.fine_voxel, context),
-            std::move(sample),
+            std::move(fine),
+            std::move(coarse_sample),
+            std::move(fine_sample),
             std::move(keypoints),
             std::move(descriptors),
             spread,

@@ -38,7 +38,8 @@ struct RegistrationScale {
 struct PreparedScan {
     SurfacePoints coarse;
     SurfacePoints fine;
-    OrientedPoints sample;                 ///< some of the coarse points, spread evenly
+    OrientedPoints coarse_sample;          ///< some of the coarse points, spread evenly
+    OrientedPoints fine_sample;            ///< some of the fine points, spread evenly
     std::vector<std::uint32_t> keypoints;  ///< numbers of coarse points
     FpfhDescriptors descriptors;           ///< one column per keypoint
     PointSpread spread;                    ///< of the coarse points

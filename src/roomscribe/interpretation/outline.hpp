@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace roomscribe {
+
+/// A simple polygon around the points, counter-clockwise, that follows them more closely than their
+/// convex hull: from the hull, every edge longer than `max_edge` is bent inwards to the point that
+/// it meets first, until there is none left to meet (after Park and Oh 2012). Then corners that lie
+/// within `tolerance` of the line between their neighbours are left out, so that the polygon holds
+/// all points up to about `tolerance`. Fewer than 3 corners if the points are fewer or on one line.
+std::vector<Eigen::Vector2d> concave_outline(std::span<const Eigen::Vector2d> points,
+                                             double max_edge, double tolerance);
+
+/// One point per square of a grid, for where a cell's other points would make no difference.
+std::vector<Eigen::Vector2d> thin_points(std::span<const Eigen::Vector2d> points, double cell_size);
+
+/// Groups of points such that every point is nearer than about `gap` to another one of its group:
+/// the group's number per point, counted from 0 in the order of their first points.
+std::vector<std::uint32_t> link_points(std::span<const Eigen::Vector2d> points, double gap);
+
+}  // namespace roomscribe
