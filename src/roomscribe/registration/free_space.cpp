@@ -42,8 +42,8 @@ double FreeSpace::fill(std::span<const Eigen::Vector3f> positions) {
 }
 
 std::size_t FreeSpace::index_of(const CellPlace& place) const {
-    return static_cast<std::size_t>((place.face * cells_per_edge_ + place.row) * cells_per_edge_ +
-                                    place.column);
+    const int index = (place.face * cells_per_edge_ + place.row) * cells_per_edge_ + place.column;
+    return static_cast<std::size_t>(index);
 }
 
 FreeSpace::CellPlace FreeSpace::place_of(const Eigen::Vector3d& direction) const {

@@ -173,7 +173,7 @@ std::vector<PoseCandidate> propose_poses(std::span<const PointMatch> matches,
 
     std::vector<Eigen::Vector3f> sources;
     for (const PointMatch& match : matches)
-        sources.push_back(match.source.cast<float>());
+        sources.emplace_back(match.source.cast<float>());
     const PointSpread spread = measure_spread(sources);
     std::vector<PoseCandidate> candidates;
     for (const PoseCandidate& candidate : grown) {

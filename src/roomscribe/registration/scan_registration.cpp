@@ -94,16 +94,17 @@ class SequencePlacer {
     }
 
   private:
-    /// Tries the given partners, latest first, until a link is accepted; an ambiguous one will do
-    /// if none is.
-    bool place(std::size_t scan, const std::vector<std::size_t>& partners) {
+    /// Tries the partners, latest first, until a link is accepted; an ambiguous one will do if none
+    /// is.
+    bool place(std::size_t scan, std::span<const std::size_t> partners) {
         std::optional<RegistrationLink> ambiguous;
-        for (auto partner = partners.rbegin(); partner != partners.rend(); ++partner) {
+        const std::vector<std::size_t> latest_first(partners.rbegin(), partners.rend());
+        for (const std::size_t partner : latest_first) {
             context_.throw_if_cancelled();
-            RegistrationLink link = register_pair(prepared_[scan], prepared_[*partner], scale_,
+            RegistrationLink link = register_pair(prepared_[scan], prepared_[partner], scale_,
                                                   seed_, settings_.pair, context_);
             link.source = scan;
-            link.target = *partner;
+            link.target = partner;
             registration_.links.push_back(link);
             if (link.verdict == LinkVerdict::accepted) {
                 settle(link);

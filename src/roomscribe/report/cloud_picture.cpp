@@ -167,7 +167,7 @@ void close_gaps(Raster<std::uint64_t>& keys, std::ptrdiff_t radius, const Contex
 }
 
 std::uint8_t byte_of(float value) {
-    return static_cast<std::uint8_t>(std::clamp(value, 0.0F, 255.0F) + 0.5F);
+    return static_cast<std::uint8_t>(std::lround(std::clamp(value, 0.0F, 255.0F)));
 }
 
 /// Few levels instead of all: the file becomes a fraction of the size and looks the same.

@@ -142,7 +142,7 @@ std::string components_table(const Reconstruction& reconstruction) {
         const std::string what = component.kind.empty() ? label : in_words(component.kind);
         table.html(fmt::format("<span class=\"nowrap\"><i class=\"swatch label-{}\"></i>{}</span>",
                                label_name(component.label), escape_html(what)),
-                   label + " " + what);
+                   fmt::format("{} {}", label, what));
         table.html(size_of(component, reconstruction.scene.room_from_map));
         table.number(area_of(component), 2);
         table.count(evidence.points);
