@@ -32,71 +32,98 @@ double quantile(std::vector<double>& values, double share) {
     return values[static_cast<std::size_t>(rank)];
 }
 
+/// Of the finite points; some hundred thousand of them are enough.
 double middle_extent(const std::vector<Eigen::Vector3f>& points) {
+    const std::size_t stride = std::max<std::size_t>(1, points.size() / 200'000);
     Eigen::Vector3d size;
     for (Eigen::Index axis = 0; axis < 3; ++axis) {
         std::vector<double> coordinates;
-        coordinates.reserve(points.size());
-        for (const Eigen::Vector3f& point : points)
-            coordinates.push_back(point[axis]);
+        for (std::size_t i = 0; i < points.size(); i += stride) {
+            if (is_finite(points[i])) coordinates.push_back(points[i][axis]);
+        }
         const double low = quantile(coordinates, 0.01);
         size[axis] = quantile(coordinates, 0.99) - low;
     }
     return size.norm();
 }
 
-/// Places to measure at, spread over the surface, and the points around them.
-struct SurfaceSamples {
-    std::vector<Eigen::Vector3f> places;
-    std::vector<Eigen::Vector3f> points;
+/// The points of a cloud cell by cell, on a grid so coarse that the neighbours that count lie in
+/// the cells around: to look among those is quicker than to build a tree over all points.
+class CellLists {
+  public:
+    CellLists(const PointCloud& cloud, double cell_size, const Context& context)
+        : points_(cloud.positions),
+          grid_(downsample_voxel_grid(cloud, {.voxel_size = cell_size}, context)),
+          tree_(grid_.cloud.positions),
+          reach_(2.0 * std::sqrt(3.0) * cell_size) {
+        starts_.reserve(grid_.num_points.size() + 1);
+        for (const std::uint32_t count : grid_.num_points)
+            starts_.push_back(starts_.back() + count);
+        members_.resize(starts_.back());
+        std::vector<std::size_t> next(starts_.begin(), starts_.end() - 1);
+        for (std::uint32_t i = 0; i < points_.size(); ++i) {
+            const std::uint32_t cell = grid_.voxel_of_point[i];
+            if (cell != no_voxel) members_[next[cell]++] = i;
+        }
+    }
+
+    std::size_t size() const { return grid_.num_points.size(); }
+
+    /// The nearest points to the first point of a cell, that point among them; the farthest is
+    /// last. Fewer than num_neighbors where there are fewer in the cells around; in a cloud so thin
+    /// that this is no exception, the search goes on until it has them all.
+    void neighbors_of(std::size_t cell, std::vector<Neighbor>& neighbors) const {
+        const bool is_thin = members_.size() < num_neighbors * size();
+        const std::size_t num_wanted = is_thin ? std::min(num_neighbors, members_.size()) : 1;
+        for (double reach = reach_;; reach *= 2.0) {
+            gather(cell, reach, neighbors);
+            if (neighbors.size() >= num_wanted) break;
+        }
+        const std::size_t count = std::min(num_neighbors, neighbors.size());
+        const auto last = neighbors.begin() + static_cast<std::ptrdiff_t>(count) - 1;
+        std::nth_element(neighbors.begin(), last, neighbors.end(),
+                         [](const Neighbor& a, const Neighbor& b) {
+                             return a.squared_distance < b.squared_distance;
+                         });
+        neighbors.resize(count);
+    }
+
+  private:
+    /// All points of the cells within reach of a cell, with their distances to its first point.
+    void gather(std::size_t cell, double reach, std::vector<Neighbor>& neighbors) const {
+        const Eigen::Vector3f& place = points_[members_[starts_[cell]]];
+        std::vector<Neighbor> cells_around;
+        tree_.within_radius(grid_.cloud.positions[cell], reach, cells_around);
+        neighbors.clear();
+        for (const Neighbor& around : cells_around) {
+            for (std::size_t i = starts_[around.index]; i < starts_[around.index + 1]; ++i) {
+                neighbors.push_back({members_[i], (points_[members_[i]] - place).squaredNorm()});
+            }
+        }
+    }
+
+    const std::vector<Eigen::Vector3f>& points_;
+    VoxelGrid grid_;
+    SearchTree tree_;
+    double reach_;
+    std::vector<std::size_t> starts_{0};
+    std::vector<std::uint32_t> members_;  ///< cell after cell
 };
 
-/// One point per occupied cell of a coarse grid, so that the dense zone near the scanner does not
-/// decide. Of a large cloud only the surroundings of some cells are kept: a tree over all points
-/// would cost more than everything else.
-SurfaceSamples sample_surface(const PointCloud& cloud, double cell_size, const Context& context) {
-    constexpr std::size_t max_samples = 1000;
-    const VoxelGrid cells = downsample_voxel_grid(cloud, {.voxel_size = cell_size}, context);
-    const std::size_t num_cells = cells.cloud.size();
-    const std::size_t stride = std::max<std::size_t>(1, num_cells / max_samples);
-
-    // All neighbours that count lie within a cell's size of the place (see
-    // estimate_scan_statistics).
-    const double reach = 2.0 * std::sqrt(3.0) * cell_size;
-    const SearchTree tree(cells.cloud.positions);
-    std::vector<bool> is_near(num_cells, stride == 1);
-    std::vector<Neighbor> around;
-    for (std::size_t cell = 0; stride > 1 && cell < num_cells; cell += stride) {
-        tree.within_radius(cells.cloud.positions[cell], reach, around);
-        for (const Neighbor& neighbor : around)
-            is_near[neighbor.index] = true;
-    }
-
-    SurfaceSamples samples;
-    std::vector<bool> is_sampled(num_cells, false);
-    for (std::size_t i = 0; i < cloud.size(); ++i) {
-        const std::uint32_t cell = cells.voxel_of_point[i];
-        if (cell == no_voxel || !is_near[cell]) continue;
-        samples.points.push_back(cloud.positions[i]);
-        if (cell % stride != 0 || is_sampled[cell]) continue;
-        is_sampled[cell] = true;
-        samples.places.push_back(cloud.positions[i]);
-    }
-    return samples;
-}
-
 struct LocalMeasures {
+    std::size_t num_neighbors = 0;
     double reach = 0.0;  ///< m, distance of the last neighbour
     double spacing = 0.0;
     double residual = -1.0;  ///< negative where the neighbours lie on one line
 };
 
-LocalMeasures measure(const std::vector<Eigen::Vector3f>& points, const SearchTree& tree,
-                      const Eigen::Vector3f& center, std::vector<Neighbor>& neighbors) {
-    tree.nearest(center, num_neighbors, neighbors);
+/// `neighbors` ends with the farthest.
+LocalMeasures measure(const std::vector<Eigen::Vector3f>& points,
+                      const std::vector<Neighbor>& neighbors) {
     const auto count = static_cast<double>(neighbors.size());
     LocalMeasures measures;
     measures.reach = std::sqrt(static_cast<double>(neighbors.back().squared_distance));
+    measures.num_neighbors = neighbors.size();
     // On a surface a disc of the k-th neighbour's radius holds k points: pi r^2 / k area for each.
     measures.spacing = measures.reach * std::sqrt(std::numbers::pi / std::max(count - 1.0, 1.0));
     PlaneMoments moments;
@@ -116,31 +143,32 @@ LocalMeasures measure(const std::vector<Eigen::Vector3f>& points, const SearchTr
 
 ScanStatistics estimate_scan_statistics(const PointCloud& cloud, const Context& context) {
     ScanStatistics statistics;
-    std::vector<Eigen::Vector3f> points;
-    points.reserve(cloud.size());
-    for (const Eigen::Vector3f& point : cloud.positions) {
-        if (is_finite(point)) points.push_back(point);
-    }
-    statistics.num_points = points.size();
-    if (points.size() < 3) return statistics;
-    statistics.extent = middle_extent(points);
+    statistics.num_points = finite_points(cloud).size();
+    if (statistics.num_points < 3) return statistics;
+    statistics.extent = middle_extent(cloud.positions);
     if (statistics.extent <= 0.0) return statistics;
 
     // As small and as large as a voxel may be: a cloud in a wrong unit is measured all the same.
     const double cell_size = std::clamp(statistics.extent / cells_along_extent, 1e-6, 1e6);
-    const SurfaceSamples samples = sample_surface(cloud, cell_size, context);
-    const SearchTree tree(samples.points);
-    std::vector<LocalMeasures> measures(samples.places.size());
-    parallel_for(context, samples.places.size(), 64, [&](std::size_t begin, std::size_t end) {
+    const CellLists cells(cloud, cell_size, context);
+    // Every occupied cell counts once, so that the dense zone near the scanner does not decide; a
+    // thousand of them are enough.
+    const std::size_t stride = std::max<std::size_t>(1, cells.size() / 1000);
+    std::vector<LocalMeasures> measures((cells.size() + stride - 1) / stride);
+    parallel_for(context, measures.size(), 16, [&](std::size_t begin, std::size_t end) {
         std::vector<Neighbor> neighbors;
         for (std::size_t i = begin; i < end; ++i) {
-            measures[i] = measure(samples.points, tree, samples.places[i], neighbors);
+            cells.neighbors_of(i * stride, neighbors);
+            measures[i] = measure(cloud.positions, neighbors);
         }
     });
 
     // Stray returns far out (beyond a window, at the end of the scanner's range) fill cells of
     // their own, but no surface. They count only if nearly everything is as thin.
-    const auto is_surface = [&](const LocalMeasures& local) { return local.reach <= cell_size; };
+    const std::size_t min_neighbors = std::min(num_neighbors, statistics.num_points);
+    const auto is_surface = [&](const LocalMeasures& local) {
+        return local.num_neighbors == min_neighbors && local.reach <= cell_size;
+    };
     const auto num_surface = std::count_if(measures.begin(), measures.end(), is_surface);
     if (10 * static_cast<std::size_t>(num_surface) >= measures.size()) {
         std::erase_if(measures, [&](const LocalMeasures& local) { return !is_surface(local); });

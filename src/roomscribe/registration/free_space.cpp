@@ -5,6 +5,13 @@
 #include <cmath>
 
 namespace roomscribe {
+namespace {
+
+std::size_t stride_for(std::size_t num_points, std::size_t num_wanted) {
+    return std::max<std::size_t>(1, num_points / num_wanted);
+}
+
+}  // namespace
 
 FreeSpace::FreeSpace(std::span<const Eigen::Vector3f> positions,
                      const Eigen::Vector3d& sensor_position, double points_per_cell)
@@ -27,8 +34,10 @@ double FreeSpace::fill(std::span<const Eigen::Vector3f> positions) {
     cells_.assign(6 * edge * edge, Cell{});
     std::size_t num_points = 0;
     std::size_t num_occupied = 0;
-    for (const Eigen::Vector3f& position : positions) {
-        const Eigen::Vector3d ray = position.cast<double>() - sensor_position_;
+    // Enough for a few points in each of the finest cells; more would say the same.
+    const std::size_t stride = stride_for(positions.size(), 1'000'000);
+    for (std::size_t i = 0; i < positions.size(); i += stride) {
+        const Eigen::Vector3d ray = positions[i].cast<double>() - sensor_position_;
         const auto range = static_cast<float>(ray.norm());
         if (!std::isfinite(range) || range == 0.0F) continue;
         Cell& cell = cells_[index_of(place_of(ray))];
@@ -89,9 +98,10 @@ double self_contradiction(std::span<const Eigen::Vector3f> positions,
     const FreeSpace narrow(positions, sensor_position, 2.0);
     std::size_t num_contradicted = 0;
     std::size_t num_looked_at = 0;
-    for (const Eigen::Vector3f& position : positions) {
-        if (!position.allFinite()) continue;
-        const Eigen::Vector3d ray = position.cast<double>() - sensor_position;
+    const std::size_t stride = stride_for(positions.size(), 100'000);  // for a share, plenty
+    for (std::size_t i = 0; i < positions.size(); i += stride) {
+        if (!positions[i].allFinite()) continue;
+        const Eigen::Vector3d ray = positions[i].cast<double>() - sensor_position;
         const FreeSpace::Cell& cell = narrow.cells_[narrow.index_of(narrow.place_of(ray))];
         ++num_looked_at;
         // A grazing angle spreads the ranges within a cell; a tenth allows for it.

@@ -11,14 +11,14 @@
 namespace roomscribe {
 namespace {
 
-SurfacePoints thin_to_surface(const Scan& scan, double voxel_size, const Context& context) {
-    const VoxelGrid grid = downsample_voxel_grid(scan.cloud, {.voxel_size = voxel_size}, context);
-    const SearchTree all(grid.cloud.positions);
-    const std::vector<std::uint32_t> kept = remove_outliers(grid.cloud.positions, all, {}, context);
-    std::vector<Eigen::Vector3f> positions = select_points(grid.cloud, kept).positions;
+SurfacePoints clean_surface(const PointCloud& thinned, const Eigen::Vector3d& sensor_position,
+                            const Context& context) {
+    const SearchTree all(thinned.positions);
+    const std::vector<std::uint32_t> kept = remove_outliers(thinned.positions, all, {}, context);
+    std::vector<Eigen::Vector3f> positions = select_points(thinned, kept).positions;
     SearchTree tree(positions);
     std::vector<Eigen::Vector3f> normals =
-        estimate_normals(positions, tree, scan.sensor_position(), {}, context).normals;
+        estimate_normals(positions, tree, sensor_position, {}, context).normals;
     return {std::move(positions), std::move(normals), std::move(tree)};
 }
 
@@ -56,7 +56,13 @@ std::vector<std::uint32_t> choose_distinctive(const FpfhDescriptors& descriptors
 
 PreparedScan prepare_scan(const Scan& scan, const RegistrationScale& scale,
                           const Context& context) {
-    SurfacePoints coarse = thin_to_surface(scan, scale.coarse_voxel, context);
+    const Eigen::Vector3d sensor_position = scan.sensor_position();
+    const PointCloud fine_points =
+        downsample_voxel_grid(scan.cloud, {.voxel_size = scale.fine_voxel}, context).cloud;
+    const PointCloud coarse_points =
+        downsample_voxel_grid(fine_points, {.voxel_size = scale.coarse_voxel}, context).cloud;
+    SurfacePoints fine = clean_surface(fine_points, sensor_position, context);
+    SurfacePoints coarse = clean_surface(coarse_points, sensor_position, context);
     std::vector<std::uint32_t> candidates(coarse.positions.size());
     std::iota(candidates.begin(), candidates.end(), 0U);
     const FpfhDescriptors all = compute_fpfh(coarse.positions, coarse.normals, coarse.tree,
@@ -70,14 +76,13 @@ PreparedScan prepare_scan(const Scan& scan, const RegistrationScale& scale,
     // Rims contradict up to a fifth of an honest but thin scan, a merged cloud a third of itself.
     constexpr double max_self_contradiction = 0.2;
     const bool free_space_is_valid =
-        self_contradiction(scan.cloud.positions, scan.sensor_position(), 0.5 * scale.coarse_voxel) <
+        self_contradiction(scan.cloud.positions, sensor_position, 0.5 * scale.coarse_voxel) <
         max_self_contradiction;
     // Shares of a sample of this size are good to two per cent, and a pose from so many pairs to
     // less than a hundredth of the noise: more points cost time alone.
     constexpr std::size_t coarse_sample_size = 2500;
     constexpr std::size_t fine_sample_size = 15'000;
     const PointSpread spread = measure_spread(coarse.positions);
-    SurfacePoints fine = thin_to_surface(scan, scale.fine_voxel, context);
     OrientedPoints coarse_sample = sample_surface(coarse, coarse_sample_size);
     OrientedPoints fine_sample = sample_surface(fine, fine_sample_size);
     return {std::move(coarse),
@@ -87,7 +92,7 @@ PreparedScan prepare_scan(const Scan& scan, const RegistrationScale& scale,
             std::move(keypoints),
             std::move(descriptors),
             spread,
-            FreeSpace(scan.cloud.positions, scan.sensor_position()),
+            FreeSpace(scan.cloud.positions, sensor_position),
             free_space_is_valid};
 }
 
