@@ -85,8 +85,8 @@ std::optional<Transform> fit_transform(std::span<const PointMatch> matches,
                                                 Eigen::ComputeFullU | Eigen::ComputeFullV);
     // Matches on one line leave the turn about it free: the second singular value vanishes.
     if (!(svd.singularValues()[1] > 1e-9 * svd.singularValues()[0])) return std::nullopt;
-    const Eigen::Matrix3d u = svd.matrixU();
-    const Eigen::Matrix3d v = svd.matrixV();
+    const Eigen::Matrix3d& u = svd.matrixU();
+    const Eigen::Matrix3d& v = svd.matrixV();
     Eigen::Vector3d signs = Eigen::Vector3d::Ones();
     if ((u * v.transpose()).determinant() < 0.0) signs[2] = -1.0;
 
