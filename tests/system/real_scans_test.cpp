@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Scans that others recorded. They are not part of the project: tests skip where they are absent.
 #include <array>
+#include <cmath>
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -116,6 +117,137 @@ TEST_P(RealScans, RunWithoutACrash) {
     EXPECT_TRUE(nlohmann::json::accept(result.out)) << result.out;
     EXPECT_GT(read_bytes(folder / "out" / "report.html").size(), 0U);
 }
+
+/// What is known of a cloud's room, to be found with margin.
+struct RealRoom {
+    std::string test_name;
+    std::string scan;
+    std::size_t min_ceilings;
+    std::size_t min_walls;
+    std::size_t max_walls;
+    Eigen::Vector3d up;  ///< in the file's frame, if known: else zero
+};
+
+void PrintTo(const RealRoom& room, std::ostream* stream) {
+    *stream << room.test_name;
+}
+
+class RealRooms : public testing::TestWithParam<RealRoom> {};
+
+TEST_P(RealRooms, FloorCeilingWallsAndUpAreFound) {
+    const RealRoom& room = GetParam();
+    const std::filesystem::path path = real_scan(room.scan);
+    ROOMSCRIBE_REQUIRE_REAL_SCAN(path);
+    const TemporaryFolder folder;
+    const std::filesystem::path out = folder / "out";
+    ASSERT_EQ(roomscribe({"interpret", path.string(), "-o", out.string()}).exit_code, 0);
+    const nlohmann::json scene = read_json(out / "scene.json");
+    EXPECT_GE(count_components(scene, "floor"), 1U);
+    EXPECT_GE(count_components(scene, "ceiling"), room.min_ceilings);
+    EXPECT_GE(count_components(scene, "wall"), room.min_walls);
+    EXPECT_LE(count_components(scene, "wall"), room.max_walls);
+    const nlohmann::json& row = scene["to_room"][2];
+    const Eigen::Vector3d up(row[0], row[1], row[2]);
+    if (!room.up.isZero()) {
+        EXPECT_GT(up.dot(room.up), std::cos(radians(3.0)));
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Clouds, RealRooms,
+    testing::Values(
+        // The scanner was tilted by an unknown angle.
+        RealRoom{"Office", "rooms/3dsmart_dlut/A601.pcd", 1, 3, 12, Eigen::Vector3d::Zero()},
+        RealRoom{"Laboratory", "rooms/3dsmart_dlut/A605.pcd", 1, 4, 15, Eigen::Vector3d::Zero()},
+        // Its back wall leans by 12 degrees in the scan.
+        RealRoom{"BentWalls", "rooms/3dsmart_dlut/A617.pcd", 1, 4, 15, Eigen::Vector3d::Zero()},
+        RealRoom{"Studio", "rooms/scannet_scene0000/scene0000_00_labels.ply", 1, 8, 35,
+                 Eigen::Vector3d::UnitZ()},
+        RealRoom{"MeetingRoom", "rooms/scannet_unlabelled/scene0005_01.ply", 0, 3, 15,
+                 Eigen::Vector3d::UnitZ()},
+        RealRoom{"Hallway", "rooms/s3dis/Area_3_hallway_3.ply", 1, 3, 15, Eigen::Vector3d::UnitZ()},
+        // Walls and ground were seen through its windows, up to 80 m away.
+        RealRoom{"HallAndOffices", "rooms/cv4aec_10cm/sample2.ply", 1, 20, 55,
+                 Eigen::Vector3d::UnitZ()},
+        RealRoom{"Floor", "rooms/cv4aec_10cm/sample3.ply", 1, 40, 100, Eigen::Vector3d::UnitZ()},
+        RealRoom{"TwoStoreys", "rooms/loadersgl_indoor/indoor.ply", 2, 20, 80,
+                 Eigen::Vector3d::UnitY()}),
+    [](const auto& tested) { return tested.param.test_name; });
+
+/// Of the labelled points, by the numbers that the data set gives them.
+struct RealLabels {
+    std::string test_name;
+    std::string scan;
+    int unlabelled;
+    std::array<int, 3> truth;         ///< floor, ceiling, wall
+    std::array<double, 3> least_iou;  ///< a little less than measured
+};
+
+void PrintTo(const RealLabels& labels, std::ostream* stream) {
+    *stream << labels.test_name;
+}
+
+class RealLabelledRooms : public testing::TestWithParam<RealLabels> {};
+
+std::vector<int> channel(const PointCloud& cloud, const std::string& name) {
+    std::vector<int> values;
+    for (const Channel& one : cloud.channels) {
+        if (one.name != name) continue;
+        const std::size_t size = one.bytes_per_point();
+        for (std::size_t i = 0; i < cloud.size(); ++i)
+            values.push_back(std::to_integer<int>(one.values[i * size]));
+    }
+    return values;
+}
+
+TEST_P(RealLabelledRooms, PointLabelsAgree) {
+    const RealLabels& labels = GetParam();
+    const std::filesystem::path path = real_scan(labels.scan);
+    ROOMSCRIBE_REQUIRE_REAL_SCAN(path);
+    const TemporaryFolder folder;
+    const std::filesystem::path out = folder / "out";
+    ASSERT_EQ(roomscribe({"interpret", path.string(), "-o", out.string()}).exit_code, 0);
+    const PointCloud cloud = read_scan(out / "labels.ply").cloud;
+    const std::vector<int> truth = channel(cloud, "input_label");
+    const std::vector<int> found = channel(cloud, "label");
+    ASSERT_EQ(truth.size(), cloud.size());
+    ASSERT_EQ(found.size(), cloud.size());
+    for (std::size_t k = 0; k < 3; ++k) {
+        std::size_t both = 0;
+        std::size_t either = 0;
+        for (std::size_t i = 0; i < cloud.size(); ++i) {
+            if (truth[i] == labels.unlabelled) continue;
+            const bool is_true = truth[i] == labels.truth[k];
+            const bool is_found = found[i] == static_cast<int>(k) + 1;
+            both += is_true && is_found ? 1 : 0;
+            either += is_true || is_found ? 1 : 0;
+        }
+        EXPECT_GE(static_cast<double>(both), labels.least_iou[k] * static_cast<double>(either))
+            << k << ": " << static_cast<double>(both) / static_cast<double>(either);
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Clouds, RealLabelledRooms,
+    testing::Values(
+        // Its doors, which include their frames, count as wall until they are told apart.
+        RealLabels{"Hallway", "rooms/s3dis/Area_3_hallway_3.ply", -1, {1, 0, 2}, {.97, .96, .55}},
+        RealLabels{"Studio00",
+                   "rooms/scannet_scene0000/scene0000_00_labels.ply",
+                   0,
+                   {2, 22, 1},
+                   {.77, .7, .4}},
+        RealLabels{"Studio01",
+                   "rooms/scannet_scene0000/scene0000_01_labels.ply",
+                   0,
+                   {2, 22, 1},
+                   {.77, .55, .37}},
+        RealLabels{"Studio02",
+                   "rooms/scannet_scene0000/scene0000_02_labels.ply",
+                   0,
+                   {2, 22, 1},
+                   {.77, .8, .37}}),
+    [](const auto& tested) { return tested.param.test_name; });
 
 INSTANTIATE_TEST_SUITE_P(
     Clouds, RealScans,

@@ -21,6 +21,8 @@ constexpr double min_level_area = 0.5;
 constexpr double max_step = 0.35;
 /// Ceilings under a roof slope by up to this much; steeper, it is a wall.
 constexpr double max_ceiling_slope = radians(45.0);
+/// Storeys are no higher (building practice); above, it is a roof seen from outside.
+constexpr double max_room_height = 5.0;
 /// Slabs are thicker.
 constexpr double min_slab = 0.05;
 
@@ -67,11 +69,11 @@ void add_sloping_ceilings(std::vector<Storey>& storeys, std::span<const PlanarPa
         if (patches[i].area < min_level_area || (facing_is_known && cosine > 0.0)) continue;
         if (std::abs(cosine) >= std::cos(max_slope)) continue;
         if (std::abs(cosine) < std::cos(max_ceiling_slope)) continue;
-        const double height = patches[i].centroid.dot(up) - room_height;
-        const auto below =
-            std::find_if(storeys.rbegin(), storeys.rend(), [height](const Storey& storey) {
-                return storey.floor && storey.floor->height <= height;
-            });
+        const double height = patches[i].centroid.dot(up);
+        const auto below = std::find_if(storeys.rbegin(), storeys.rend(), [&](const Storey& s) {
+            return s.floor && height >= s.floor->height + room_height &&
+                   height <= s.floor->height + max_room_height;
+        });
         if (below != storeys.rend()) below->sloping_ceilings.push_back(i);
     }
 }

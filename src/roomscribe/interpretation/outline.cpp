@@ -132,7 +132,8 @@ void Digger::simplify(double tolerance) {
 
 }  // namespace
 
-std::vector<Eigen::Vector2d> thin_points(std::span<const Eigen::Vector2d> points, double cell_size) {
+std::vector<Eigen::Vector2d> thin_points(std::span<const Eigen::Vector2d> points,
+                                         double cell_size) {
     std::vector<std::pair<Cell, std::uint32_t>> cells;
     cells.reserve(points.size());
     for (std::uint32_t i = 0; i < points.size(); ++i)

@@ -41,11 +41,12 @@ bool SurfaceTest::is_inside(const Eigen::Vector3f& point) const {
     for (std::size_t i = 0; i < corners.size(); ++i) {
         const Eigen::Vector2f& a = corners[i];
         const Eigen::Vector2f edge = corners[i + 1 == corners.size() ? 0 : i + 1] - a;
-        const Eigen::Vector2f offset = p - a;
-        const float along = std::clamp(offset.dot(edge) / std::max(edge.squaredNorm(), 1e-12F), 0.0F, 1.0F);
-        if ((offset - along * edge).squaredNorm() <= margin * margin) return true;
-        if ((offset.y() < 0.0F) == (offset.y() < edge.y())) continue;
-        if (offset.x() < edge.x() * offset.y() / edge.y()) inside = !inside;
+        const Eigen::Vector2f from_a = p - a;
+        const float along =
+            std::clamp(from_a.dot(edge) / std::max(edge.squaredNorm(), 1e-12F), 0.0F, 1.0F);
+        if ((from_a - along * edge).squaredNorm() <= margin * margin) return true;
+        if ((from_a.y() < 0.0F) == (from_a.y() < edge.y())) continue;
+        if (from_a.x() < edge.x() * from_a.y() / edge.y()) inside = !inside;
     }
     return inside;
 }

@@ -123,8 +123,9 @@ void SurfaceBuilder::add_sloping_ceiling(std::uint32_t patch, const Storey& stor
     level.patches = {patch};
     add_level(level, Label::ceiling, storey);
     Component& component = surfaces_.back().component;
-    component.evidence.rule = "sloping surface at least a room's height above the floor, "
-                              "nothing above it";
+    component.evidence.rule =
+        "sloping surface at least a room's height above the floor, "
+        "nothing above it";
     component.evidence.alternative = "underside of something that leans";
     component.confidence = 0.6;
     component.verdict = Verdict::doubtful;
@@ -245,12 +246,6 @@ RoomSurfaces find_room_surfaces(const SurfaceSample& sample, std::span<const Pla
                               upright.room_from_map.row(1).transpose(), settings.max_gap);
     std::vector<Storey> storeys = find_storeys(patches, up, upright.facing_is_known, settings);
     for (Storey& storey : storeys) {
-        std::erase_if(storey.ceilings, [&](const Level& ceiling) {
-            return ceiling.area < max_table_area && !extent.is_topmost(ceiling.patches, up);
-        });
-        std::erase_if(storey.sloping_ceilings, [&](std::uint32_t patch) {
-            return !extent.is_topmost({&patch, 1}, up);
-        });
         storey = extent.without_outside(storey);
     }
     SurfaceBuilder builder(sample, patches, upright);
@@ -271,9 +266,11 @@ RoomSurfaces find_room_surfaces(const SurfaceSample& sample, std::span<const Pla
         const double from = i == 0 ? -infinity : storeys[i].floor->height;
         const double to = i + 1 == storeys.size() ? infinity : storeys[i + 1].floor->height;
         const auto surfaces = find_upright_surfaces(sample, patches, up, from, to, settings);
+        const StoreyExtent::Points footprint = extent.footprint(storeys[i]);
         for (const UprightSurface& surface : surfaces) {
             const WallJudgement judgement = judge_wall(surface, surfaces, storeys[i], settings);
-            if (judgement.is_wall && extent.is_beside(surface, storeys[i])) builder.add_wall(surface, judgement, surfaces, storeys[i]);
+            if (judgement.is_wall && extent.is_beside(surface, footprint))
+                builder.add_wall(surface, judgement, surfaces, storeys[i]);
         }
     }
     result.surfaces = std::move(builder).take();

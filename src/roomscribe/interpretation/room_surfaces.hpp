@@ -94,9 +94,9 @@ struct RoomSurfacesSettings {
 /// them: then they are a cupboard's front. What lies further than `max_gap` from floor and ceiling
 /// was seen through windows and is left out. Sloping ceilings (under roofs) are doubtful ones.
 ///
-/// `component.polygon` is the outline of a floor or ceiling, simple but not convex, and the rectangle from floor to
-/// ceiling of a wall (to the end of what was seen, where there is no floor or ceiling). Nothing
-/// found gives an empty table.
+/// `component.polygon` is the outline of a floor or ceiling, simple but not convex, and the
+/// rectangle from floor to ceiling of a wall (to the end of what was seen, where there is no floor
+/// or ceiling). Nothing found gives an empty table.
 RoomSurfaces find_room_surfaces(const SurfaceSample& sample, std::span<const PlanarPatch> patches,
                                 const Upright& upright, const RoomSurfacesSettings& settings = {},
                                 const Context& context = {});

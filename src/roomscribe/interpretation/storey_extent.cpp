@@ -12,6 +12,8 @@ namespace {
 
 /// Against `max_gap`, this fineness is enough.
 constexpr double cell_size = 0.25;
+/// Smaller pieces are not worth a name.
+constexpr double min_piece_area = 0.5;
 
 bool has_near(std::span<const Eigen::Vector2d> points, const Eigen::Vector2d& place,
               double distance) {
@@ -79,7 +81,10 @@ Storey StoreyExtent::without_outside(const Storey& storey) const {
     std::vector<Level> floors;
     std::vector<Level> ceilings;
     const auto add = [&](std::vector<Level>& levels, const Level& level) {
-        const std::vector<Level> pieces = split(level);
+        std::vector<Level> pieces = split(level);
+        if (pieces.size() > 1) {
+            std::erase_if(pieces, [](const Level& piece) { return piece.area < min_piece_area; });
+        }
         levels.insert(levels.end(), pieces.begin(), pieces.end());
     };
     if (storey.floor) add(floors, *storey.floor);
@@ -94,7 +99,13 @@ Storey StoreyExtent::without_outside(const Storey& storey) const {
     if (kept.empty() != floors.empty()) return storey;
 
     Storey result;
-    result.sloping_ceilings = storey.sloping_ceilings;
+    for (const std::uint32_t patch : storey.sloping_ceilings) {
+        std::vector<Level> sloping{Level{0.0, 0.0, 0.0, {patch}}};
+        keep_near(sloping, footprint(floors));
+        if (!sloping.empty() && is_topmost(patches_[patch])) {
+            result.sloping_ceilings.push_back(patch);
+        }
+    }
     const auto larger = [](const Level& a, const Level& b) { return a.area < b.area; };
     const auto largest = std::max_element(kept.begin(), kept.end(), larger);
     if (largest != kept.end()) {
@@ -108,51 +119,46 @@ Storey StoreyExtent::without_outside(const Storey& storey) const {
     return result;
 }
 
-bool StoreyExtent::is_beside(const UprightSurface& surface, const Storey& storey) const {
+StoreyExtent::Points StoreyExtent::footprint(const Storey& storey) const {
     std::vector<Level> levels = storey.other_floors;
     if (storey.floor) levels.push_back(*storey.floor);
     levels.insert(levels.end(), storey.ceilings.begin(), storey.ceilings.end());
-    const Points inside = footprint(levels);
-    if (inside.empty()) return true;
+    return footprint(levels);
+}
+
+bool StoreyExtent::is_beside(const UprightSurface& surface, const Points& footprint) const {
+    if (footprint.empty()) return true;
     const Eigen::Vector3d origin = surface.plane.offset * surface.plane.normal;
     int total = 0;
     int near = 0;
     for (double along = surface.start; along <= surface.end; along += cell_size) {
         const Eigen::Vector3d place = origin + along * surface.along;
         ++total;
-        near += has_near(inside, {place.dot(x_), place.dot(y_)}, max_gap_) ? 1 : 0;
+        near += has_near(footprint, {place.dot(x_), place.dot(y_)}, max_gap_) ? 1 : 0;
     }
     return 2 * near >= total;
 }
 
-bool StoreyExtent::is_topmost(std::span<const std::uint32_t> patches,
-                              const Eigen::Vector3d& up) const {
-    constexpr double margin = 0.1;
+bool StoreyExtent::is_topmost(const PlanarPatch& patch) const {
     constexpr double clearance = 0.15;
     constexpr double max_share_above = 0.1;
-    for (const std::uint32_t number : patches) {
-        const PlanarPatch& patch = patches_[number];
-        Eigen::Array2d low = Eigen::Array2d::Constant(std::numeric_limits<double>::infinity());
-        Eigen::Array2d high = -low;
-        for (const std::uint32_t point : patch.points) {
-            const Eigen::Vector3d position = sample_.cloud.positions[point].cast<double>();
-            const Eigen::Array2d place(position.dot(x_), position.dot(y_));
-            low = low.min(place);
-            high = high.max(place);
-        }
-        const double sign = patch.plane.normal.dot(up) > 0.0 ? 1.0 : -1.0;
-        std::size_t above = 0;
-        for (const Eigen::Vector3f& point : sample_.cloud.positions) {
-            const Eigen::Vector3d position = point.cast<double>();
-            if (sign * patch.plane.signed_distance(position) < clearance) continue;
-            const Eigen::Array2d place(position.dot(x_), position.dot(y_));
-            if ((place < low - margin).any() || (place > high + margin).any()) continue;
-            ++above;
-        }
-        const double limit = max_share_above * static_cast<double>(patch.points.size());
-        if (static_cast<double>(above) > limit) return false;
+    Eigen::Array2d low = Eigen::Array2d::Constant(std::numeric_limits<double>::infinity());
+    Eigen::Array2d high = -low;
+    for (const std::uint32_t point : patch.points) {
+        const Eigen::Vector3d position = sample_.cloud.positions[point].cast<double>();
+        const Eigen::Array2d place(position.dot(x_), position.dot(y_));
+        low = low.min(place);
+        high = high.max(place);
     }
-    return true;
+    const double sign = patch.plane.normal.dot(x_.cross(y_)) > 0.0 ? 1.0 : -1.0;
+    std::size_t above = 0;
+    for (const Eigen::Vector3f& point : sample_.cloud.positions) {
+        const Eigen::Vector3d position = point.cast<double>();
+        if (sign * patch.plane.signed_distance(position) < clearance) continue;
+        const Eigen::Array2d place(position.dot(x_), position.dot(y_));
+        if ((place >= low).all() && (place <= high).all()) ++above;
+    }
+    return static_cast<double>(above) <= max_share_above * static_cast<double>(patch.points.size());
 }
 
 }  // namespace roomscribe

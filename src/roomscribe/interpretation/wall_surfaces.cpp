@@ -15,9 +15,6 @@ namespace {
 constexpr double max_lean = radians(15.0);
 /// Pieces of one wall agree in direction up to the error of a small piece's normal.
 constexpr double max_turn = radians(5.0);
-/// Pieces that are less far apart across the wall are one: bends, panels, door leaves. The thinnest
-/// partition has its other face 0.1 m away, the shallowest cupboard its front 0.2 m.
-constexpr double max_offset = 0.08;
 /// Share of a patch's points that its extent leaves out at either end: strays.
 constexpr double stray_share = 0.005;
 /// Skirtings, cables and boxes hide a wall's foot up to here.
@@ -90,12 +87,13 @@ class WallJoiner {
 };
 
 bool WallJoiner::belongs(const UprightSurface& surface, const PlanarPatch& patch) const {
-    const double cosine = surface.plane.normal.dot(upright_plane(patch, up_).normal);
+    const double cosine = surface.plane.normal.dot(patch.plane.normal);
     const double agreement = sample_.normals_face_scanner ? cosine : std::abs(cosine);
     if (agreement < std::cos(max_turn)) return false;
     // Two errors of the same kind: the surface's and the patch's.
-    const double tolerance = std::max(std::sqrt(2.0) * sample_.tolerance, max_offset);
-    if (std::abs(surface.plane.signed_distance(patch.centroid)) > tolerance) return false;
+    const double tolerance = std::sqrt(2.0) * sample_.tolerance;
+    const double across = surface.plane.signed_distance(patch.centroid);
+    if (std::abs(across) > tolerance) return false;
     const Extent width = extent_along(sample_, patch, surface.along);
     const Extent height = extent_along(sample_, patch, up_);
     return Extent{surface.start, surface.end}.gap_to(width) <= settings_.max_gap &&
@@ -135,7 +133,8 @@ void WallJoiner::add(std::uint32_t number) {
 }
 
 /// Counts a part of the sample: shares to a percent need no more.
-double share_behind(const SurfaceSample& sample, const UprightSurface& surface) {
+void compare_sides(const SurfaceSample& sample, UprightSurface& surface) {
+    constexpr double max_clear_share = 0.25;
     constexpr std::size_t max_counted = 20'000;
     const std::size_t step = sample.cloud.size() / max_counted + 1;
     const Eigen::Vector3f normal = surface.plane.normal.cast<float>();
@@ -156,8 +155,10 @@ double share_behind(const SurfaceSample& sample, const UprightSurface& surface) 
         if (distance < -clearance) ++behind;
     }
     const std::size_t total = before + behind;
-    return total == 0 ? 0.5
-                      : static_cast<double>(std::min(before, behind)) / static_cast<double>(total);
+    if (total == 0) return;
+    surface.share_behind =
+        static_cast<double>(std::min(before, behind)) / static_cast<double>(total);
+    if (surface.share_behind <= max_clear_share) surface.back_side = before < behind ? 1 : -1;
 }
 
 /// A taller parallel surface that this one stands before: the wall behind a cupboard.
@@ -169,8 +170,11 @@ bool stands_before_wall(const UprightSurface& surface, std::span<const UprightSu
         if (std::abs(cosine) < std::cos(max_lean)) continue;
         const Eigen::Vector3d middle = 0.5 * (surface.start + surface.end) * surface.along +
                                        surface.plane.offset * surface.plane.normal;
-        const double distance = std::abs(other.plane.signed_distance(middle));
-        if (distance < max_offset || distance > max_cupboard_depth) continue;
+        const double distance = other.plane.signed_distance(middle);
+        if (std::abs(distance) > max_cupboard_depth) continue;
+        // Where the surface lies as seen from the other's plane, in terms of its own normal.
+        const double before = cosine > 0.0 ? distance : -distance;
+        if (before * surface.back_side > 0.0) continue;
         const double sign = other.along.dot(surface.along) < 0.0 ? -1.0 : 1.0;
         const double start = sign * (sign > 0.0 ? surface.start : surface.end);
         const double end = sign * (sign > 0.0 ? surface.end : surface.start);
@@ -196,7 +200,7 @@ std::vector<UprightSurface> find_upright_surfaces(const SurfaceSample& sample,
     std::stable_sort(surfaces.begin(), surfaces.end(),
                      [](const auto& a, const auto& b) { return a.area > b.area; });
     for (UprightSurface& surface : surfaces)
-        surface.share_behind = share_behind(sample, surface);
+        compare_sides(sample, surface);
     return surfaces;
 }
 
@@ -210,8 +214,8 @@ WallJudgement judge_wall(const UprightSurface& surface, std::span<const UprightS
     const bool closes_room = storey.floor && surface.share_behind <= max_share_behind &&
                              surface.area >= min_closing_area;
     const bool is_tall = surface.height() >= settings.min_free_wall_height;
-    const bool is_wall = ceiling ? judgement.reaches_ceiling || (closes_room && is_tall)
-                                 : closes_room || is_tall;
+    const bool is_wall =
+        ceiling ? judgement.reaches_ceiling || (closes_room && is_tall) : closes_room || is_tall;
 
     if (surface.height() < settings.min_wall_height) return judgement;
     if (!is_wall) return judgement;

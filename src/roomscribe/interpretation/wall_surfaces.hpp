@@ -22,6 +22,8 @@ struct UprightSurface {
     double rms = 0.0;
     /// Of the surface that was seen over its width, the share on the emptier side of it.
     double share_behind = 0.5;
+    /// Side on which the emptier one is: 1 along the normal, -1 against it, 0 if that is not clear.
+    int back_side = 0;
     std::vector<std::uint32_t> patches;
 
     double height() const { return top - bottom; }
