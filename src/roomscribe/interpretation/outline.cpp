@@ -107,21 +107,20 @@ void Digger::dig(double max_edge) {
 }
 
 void Digger::simplify(double tolerance) {
-    const auto is_needless = [&](std::size_t i) {
+    const auto is_needless = [&](std::size_t i, double limit) {
         const Vector2& before = corner(i + ring_.size() - 1);
         const Vector2& after = corner(i + 1);
         const double length = (after - before).norm();
-        if (std::abs(side(before, after, ring_[i])) > tolerance * length) return false;
+        if (std::abs(side(before, after, ring_[i])) > limit * length) return false;
         for (std::size_t k = 2; k + 1 < ring_.size(); ++k) {
             if (is_in_triangle(corner(i + k), before, ring_[i], after)) return false;
         }
         return true;
     };
     // Finer first, so that a round corner does not wander off step by step.
-    const double last = tolerance;
-    for (tolerance = last / 8.0; tolerance <= last; tolerance *= 2.0) {
+    for (const double share : {0.125, 0.25, 0.5, 1.0}) {
         for (std::size_t i = 0; i < ring_.size() && ring_.size() > 3;) {
-            if (is_needless(i)) {
+            if (is_needless(i, share * tolerance)) {
                 ring_.erase(ring_.begin() + static_cast<std::ptrdiff_t>(i));
             } else {
                 ++i;
