@@ -70,6 +70,13 @@ Json box_of(const OrientedBox& box) {
             {"size", numbers(box.size, length_digits)}};
 }
 
+Json grasp_of(const Grasp& grasp) {
+    return {{"position", numbers(grasp.position, length_digits)},
+            {"axis", numbers(grasp.axis, direction_digits)},
+            {"approach", numbers(grasp.approach, direction_digits)},
+            {"opening", length(grasp.opening)}};
+}
+
 void put_text(Json& object, const char* key, const std::string& text) {
     if (!text.empty()) object[key] = text;
 }
@@ -96,6 +103,8 @@ Json component_of(const Component& component) {
     put_text(json, "parent", component.parent);
     if (!component.polygon.empty()) json["polygon"] = polygon_of(component.polygon);
     if (component.box) json["box"] = box_of(*component.box);
+    if (component.grasp) json["grasp"] = grasp_of(*component.grasp);
+    put_number(json, "visible", component.visible);
     json["confidence"] = length(component.confidence);
     json["verdict"] = verdict_name(component.verdict);
     json["evidence"] = evidence_of(component.evidence);

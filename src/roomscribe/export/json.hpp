@@ -4,6 +4,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "roomscribe/model/registration_result.hpp"
 #include "roomscribe/model/scene.hpp"
@@ -15,9 +16,9 @@ namespace roomscribe {
 /// 1e-9. The same scene gives the same text. Throws InvalidArgument if a number is not finite.
 std::string scene_to_json(const Scene& scene);
 
-/// Reads what scene_to_json writes; unknown keys are ignored, what is absent keeps its default.
-/// Throws IoError, which names `path`, for text that is not JSON or not a scene of version 1: with
-/// the byte, or with the place as in components[3].polygon[0].
+/// Reads what scene_to_json writes; unknown keys are ignored, what is absent or null keeps its
+/// default. Throws IoError, which names `path`, for text that is not JSON or not a scene of version
+/// 1: with the byte, or with the place as in components[3].polygon[0].
 Scene scene_from_json(std::string_view text, const std::string& path = "scene.json");
 
 /// registration.json: every link, and per scan its name, whether it has a place, and its residual.
@@ -26,6 +27,12 @@ Scene scene_from_json(std::string_view text, const std::string& path = "scene.js
 /// finite is null. Precondition: one name per scan.
 std::string registration_to_json(const Registration& registration,
                                  std::span<const std::string> scan_names);
+
+/// The links that registration_to_json wrote; unknown keys are ignored, and the stop reasons are
+/// left empty. Throws IoError, which names `path`, as scene_from_json does, also for a link of a
+/// scan that is not listed.
+std::vector<RegistrationLink> links_from_json(std::string_view text,
+                                              const std::string& path = "registration.json");
 
 /// Any JSON text, laid out to be read: an array without objects or nested arrays stays on one line,
 /// all else is indented by two blanks. Keys keep their order. Throws InvalidArgument if the text is

@@ -16,22 +16,29 @@ using Json = nlohmann::json;
 
 constexpr const char* cure = "write the file with roomscribe, or see docs/formats.md";
 
+/// What complaints call the document.
+struct DocumentName {
+    std::string path;
+    std::string_view format;
+};
+
 /// A value in the document that knows its place, so that a complaint can name it.
 class Node {
   public:
-    Node(const Json& json, const std::string& path, std::string place)
-        : json_(&json), path_(&path), place_(std::move(place)) {}
+    Node(const Json& json, const DocumentName& document, std::string place = "")
+        : json_(&json), document_(&document), place_(std::move(place)) {}
 
     [[noreturn]] void fail(std::string_view reason) const {
-        throw IoError(*path_, "scene JSON", {},
+        throw IoError(document_->path, document_->format, {},
                       fmt::format("{}: {}", place_.empty() ? "document" : place_, reason), cure);
     }
 
+    /// Empty where the key is absent or its value null, as other programs write what they lack.
     std::optional<Node> find(const char* key) const {
         if (!json_->is_object()) fail("must be an object");
         const auto found = json_->find(key);
-        if (found == json_->end()) return std::nullopt;
-        return Node(*found, *path_, place_.empty() ? key : place_ + "." + key);
+        if (found == json_->end() || found->is_null()) return std::nullopt;
+        return Node(*found, *document_, place_.empty() ? key : place_ + "." + key);
     }
     Node at(const char* key) const {
         std::optional<Node> node = find(key);
@@ -42,7 +49,7 @@ class Node {
         if (!json_->is_array()) fail("must be an array");
         std::vector<Node> nodes;
         for (std::size_t i = 0; i < json_->size(); ++i) {
-            nodes.emplace_back((*json_)[i], *path_, fmt::format("{}[{}]", place_, i));
+            nodes.emplace_back((*json_)[i], *document_, fmt::format("{}[{}]", place_, i));
         }
         return nodes;
     }
@@ -75,7 +82,7 @@ class Node {
 
   private:
     const Json* json_;
-    const std::string* path_;
+    const DocumentName* document_;
     std::string place_;
 };
 
@@ -151,6 +158,13 @@ void read(const Node& node, OrientedBox& box) {
         read(axes[i], box.axes[i]);
 }
 
+void read(const Node& node, Grasp& grasp) {
+    read_if_present(node, "position", grasp.position);
+    read_if_present(node, "axis", grasp.axis);
+    read_if_present(node, "approach", grasp.approach);
+    read_if_present(node, "opening", grasp.opening);
+}
+
 void read(const Node& node, Evidence& evidence) {
     read_if_present(node, "rule", evidence.rule);
     read_if_present(node, "points", evidence.points);
@@ -168,6 +182,10 @@ void read(const Node& node, Component& component) {
     read_if_present(node, "parent", component.parent);
     read_if_present(node, "polygon", component.polygon);
     if (const std::optional<Node> box = node.find("box")) read(*box, component.box.emplace());
+    if (const std::optional<Node> grasp = node.find("grasp")) {
+        read(*grasp, component.grasp.emplace());
+    }
+    read_if_present(node, "visible", component.visible);
     read_if_present(node, "confidence", component.confidence);
     read_if_present(node, "verdict", component.verdict);
     read_if_present(node, "evidence", component.evidence);
@@ -189,30 +207,93 @@ void read(const Node& node, Room& room) {
     read_if_present(node, "neighbours", room.neighbors);
 }
 
-Json parse(std::string_view text, const std::string& path) {
+void read(const Node& node, LinkVerdict& verdict) {
+    for (const LinkVerdict known :
+         {LinkVerdict::accepted, LinkVerdict::ambiguous, LinkVerdict::rejected}) {
+        if (link_verdict_name(known) != node.text()) continue;
+        verdict = known;
+        return;
+    }
+    node.fail("\"" + node.text() + "\" is not a verdict");
+}
+
+void read(const Node& node, Eigen::Matrix<double, 6, 6>& matrix) {
+    const std::vector<Node> rows = node.elements(6);
+    for (Eigen::Index row = 0; row < 6; ++row) {
+        const std::vector<Node> numbers = rows[static_cast<std::size_t>(row)].elements(6);
+        for (Eigen::Index column = 0; column < 6; ++column) {
+            matrix(row, column) = numbers[static_cast<std::size_t>(column)].number();
+        }
+    }
+}
+
+void read(const Node& node, Eigen::Matrix<double, 6, 1>& twist) {
+    const std::vector<Node> numbers = node.elements(6);
+    for (Eigen::Index i = 0; i < 6; ++i)
+        twist[i] = numbers[static_cast<std::size_t>(i)].number();
+}
+
+void read(const Node& node, RegistrationLink& link) {
+    read(node.at("source"), link.source);
+    read(node.at("target"), link.target);
+    read(node.at("verdict"), link.verdict);
+    read(node.at("target_from_source"), link.target_from_source);
+    read_if_present(node, "overlap", link.overlap);
+    read_if_present(node, "agreement", link.agreement);
+    read_if_present(node, "rmse", link.rmse);
+    read_if_present(node, "inliers", link.inliers);
+    read_if_present(node, "covariance", link.covariance);
+    read_if_present(node, "unobservable", link.unobservable);
+    if (const std::optional<Node> rival = node.find("rival")) read(*rival, link.rival.emplace());
+}
+
+Json parse(std::string_view text, const DocumentName& name) {
     try {
         return Json::parse(text);
     } catch (const Json::parse_error& error) {
-        throw IoError(path, "scene JSON", {.byte = error.byte, .line = {}}, "is not valid JSON",
+        throw IoError(name.path, name.format, {.byte = error.byte, .line = {}}, "is not valid JSON",
                       cure);
     }
+}
+
+void require_format(const Node& document, std::string_view format) {
+    if (document.at("format").text() != format) {
+        document.fail(fmt::format("format is not {}", format));
+    }
+    if (document.at("version").integer<int>() != 1) document.fail("version is not 1");
 }
 
 }  // namespace
 
 Scene scene_from_json(std::string_view text, const std::string& path) {
-    const Json json = parse(text, path);
-    const Node document(json, path, "");
-    if (document.at("format").text() != "roomscribe-scene") {
-        document.fail("format is not roomscribe-scene");
-    }
-    if (document.at("version").integer<int>() != 1) document.fail("version is not 1");
+    const DocumentName name{path, "scene JSON"};
+    const Json json = parse(text, name);
+    const Node document(json, name);
+    require_format(document, "roomscribe-scene");
 
     Scene scene;
     read_if_present(document, "to_room", scene.room_from_map);
     read_if_present(document, "components", scene.components);
     read_if_present(document, "rooms", scene.rooms);
     return scene;
+}
+
+std::vector<RegistrationLink> links_from_json(std::string_view text, const std::string& path) {
+    const DocumentName name{path, "registration JSON"};
+    const Json json = parse(text, name);
+    const Node document(json, name);
+    require_format(document, "roomscribe-registration");
+
+    const std::size_t num_scans = document.at("scans").elements().size();
+    std::vector<RegistrationLink> links;
+    for (const Node& node : document.at("links").elements()) {
+        RegistrationLink& link = links.emplace_back();
+        read(node, link);
+        if (link.source >= num_scans || link.target >= num_scans) {
+            node.fail(fmt::format("names a scan that is not among the {}", num_scans));
+        }
+    }
+    return links;
 }
 
 }  // namespace roomscribe

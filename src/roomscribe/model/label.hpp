@@ -24,6 +24,13 @@ enum class Label : std::uint8_t {
 
 inline constexpr std::size_t num_labels = 10;
 
+/// Several labels: bit i stands for the label with id i.
+using LabelSet = std::uint16_t;
+
+constexpr LabelSet label_bit(Label label) {
+    return static_cast<LabelSet>(1U << static_cast<unsigned>(label));
+}
+
 /// "door_frame" for Label::door_frame: the word that files and reports use.
 std::string_view label_name(Label label);
 

@@ -36,6 +36,14 @@ struct OrientedBox {
     Eigen::Vector3d size = Eigen::Vector3d::Zero();
 };
 
+/// How a gripper takes hold of a fixture. Geometry is in the map's frame.
+struct Grasp {
+    Eigen::Vector3d position = Eigen::Vector3d::Zero();
+    Eigen::Vector3d axis = Eigen::Vector3d::UnitX();      ///< along which the fingers close
+    Eigen::Vector3d approach = Eigen::Vector3d::UnitZ();  ///< in which the gripper moves in
+    double opening = 0.0;                                 ///< m, of the fingers
+};
+
 /// One thing that was found: a floor, a wall, a door. Geometry is in the map's frame.
 struct Component {
     std::string id;  ///< "wall-3"
@@ -45,6 +53,9 @@ struct Component {
     std::string parent;                    ///< id of a room or component, or empty
     std::vector<Eigen::Vector3d> polygon;  ///< corners in order, on the component's plane
     std::optional<OrientedBox> box;
+    std::optional<Grasp> grasp;
+    /// Of truth alone: the share of the component that the scans saw, in [0, 1].
+    std::optional<double> visible;
     double confidence = 0.0;  ///< in [0, 1]
     Verdict verdict = Verdict::doubtful;
     Evidence evidence;

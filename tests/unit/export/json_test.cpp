@@ -35,6 +35,8 @@ Scene small_scene() {
     handle.parent = "door-1";
     handle.box = OrientedBox{};
     handle.box->size = {0.12, 0.02, 0.03};
+    handle.grasp = Grasp{{0.5, 1.0, 0.9}, {0, 0, 1}, {0, -1, 0}, 0.02};
+    handle.visible = 0.4;
     handle.confidence = 1.0;
     handle.verdict = Verdict::accepted;
     Component ghost;
@@ -100,6 +102,13 @@ TEST(SceneToJson, GivesExactlyTheDocumentedText) {
         ],
         "size": [0.12, 0.02, 0.03]
       },
+      "grasp": {
+        "position": [0.5, 1.0, 0.9],
+        "axis": [0.0, 0.0, 1.0],
+        "approach": [0.0, -1.0, 0.0],
+        "opening": 0.02
+      },
+      "visible": 0.4,
       "confidence": 1.0,
       "verdict": "accepted",
       "evidence": {
@@ -166,6 +175,14 @@ TEST(SceneFromJson, GivesBackWhatWasWritten) {
     EXPECT_FALSE(door.box);
     ASSERT_TRUE(read.components[1].box);
     EXPECT_EQ(read.components[1].box->size, scene.components[2].box->size);
+    EXPECT_FALSE(door.visible);
+    EXPECT_FALSE(door.grasp);
+    EXPECT_EQ(read.components[1].visible, 0.4);
+    ASSERT_TRUE(read.components[1].grasp);
+    EXPECT_EQ(read.components[1].grasp->position, Eigen::Vector3d(0.5, 1.0, 0.9));
+    EXPECT_EQ(read.components[1].grasp->axis, Eigen::Vector3d(0, 0, 1));
+    EXPECT_EQ(read.components[1].grasp->approach, Eigen::Vector3d(0, -1, 0));
+    EXPECT_EQ(read.components[1].grasp->opening, 0.02);
     ASSERT_EQ(read.rooms.size(), 1U);
     EXPECT_EQ(read.rooms[0].walls, scene.rooms[0].walls);
     EXPECT_EQ(read.rooms[0].neighbors[0].through, "door-1");
@@ -229,8 +246,17 @@ TEST(SceneFromJson, SaysWhatIsWrongAndWhere) {
 
 TEST(SceneFromJson, IgnoresUnknownKeys) {
     const Scene scene = scene_from_json(
-        with_component(R"({"id": "a", "label": "wall", "visible": 0.5, "grasp": {"x": [1]}})"));
+        with_component(R"({"id": "a", "label": "wall", "mood": 0.5, "grasp": {"x": [1]}})"));
     EXPECT_EQ(scene.components.at(0).label, Label::wall);
+}
+
+TEST(SceneFromJson, TakesNullForAbsent) {
+    const Scene scene = scene_from_json(
+        with_component(R"({"id": "a", "label": "wall", "parent": null, "visible": null})"));
+    EXPECT_EQ(scene.components.at(0).parent, "");
+    EXPECT_FALSE(scene.components[0].visible);
+    EXPECT_THAT(complaint(with_component(R"({"id": null, "label": "wall"})")),
+                HasSubstr("\"id\" is missing"));
 }
 
 TEST(RegistrationToJson, ListsScansAndLinks) {
@@ -258,6 +284,60 @@ TEST(RegistrationToJson, ListsScansAndLinks) {
     EXPECT_THAT(text, HasSubstr("\"stop_reason\": \"small_step\""));
     EXPECT_THAT(text, Not(HasSubstr("rival")));
     EXPECT_THROW(registration_to_json(registration, {}), InvalidArgument);
+}
+
+TEST(LinksFromJson, GivesBackWhatWasWritten) {
+    Registration registration;
+    registration.map_from_scan = {Transform::Identity(), std::nullopt};
+    RegistrationLink link;
+    link.source = 1;
+    link.target_from_source.translation() = Eigen::Vector3d(1, 2, 3);
+    link.verdict = LinkVerdict::ambiguous;
+    link.overlap = 0.5;
+    link.agreement = 0.75;
+    link.rmse = 0.01;
+    link.inliers = 42;
+    link.covariance(2, 3) = 1.25e-7;
+    link.unobservable.emplace_back(Eigen::Matrix<double, 6, 1>::Unit(4));
+    link.rival = Transform::Identity();
+    registration.links = {link, RegistrationLink{}};
+    const std::vector<std::string> names{"a.pcd", "b.pcd"};
+    const auto links = links_from_json(registration_to_json(registration, names));
+    ASSERT_EQ(links.size(), 2U);
+    EXPECT_EQ(links[0].source, 1U);
+    EXPECT_EQ(links[0].target, 0U);
+    EXPECT_TRUE(links[0].target_from_source.isApprox(link.target_from_source));
+    EXPECT_EQ(links[0].verdict, LinkVerdict::ambiguous);
+    EXPECT_EQ(links[0].overlap, 0.5);
+    EXPECT_EQ(links[0].agreement, 0.75);
+    EXPECT_EQ(links[0].rmse, 0.01);
+    EXPECT_EQ(links[0].inliers, 42U);
+    EXPECT_EQ(links[0].covariance, link.covariance);
+    EXPECT_EQ(links[0].unobservable, link.unobservable);
+    EXPECT_TRUE(links[0].rival);
+    EXPECT_FALSE(links[1].rival);
+    EXPECT_EQ(links[1].verdict, LinkVerdict::rejected);
+}
+
+TEST(LinksFromJson, SaysWhatIsWrongAndWhere) {
+    const auto complaint_of = [](const std::string& links) -> std::string {
+        try {
+            links_from_json(
+                R"({"format": "roomscribe-registration", "version": 1, "scans": [{}], "links": [)" +
+                links + "]}");
+        } catch (const IoError& error) {
+            return error.what();
+        }
+        return "";
+    };
+    const std::string pose = R"("target_from_source": [[1,0,0,0],[0,1,0,0],[0,0,1,0],[0,0,0,1]])";
+    EXPECT_THAT(complaint_of(R"({"source": 0, "target": 1, "verdict": "accepted", )" + pose + "}"),
+                HasSubstr("links[0]: names a scan that is not among the 1"));
+    EXPECT_THAT(complaint_of(R"({"source": 0, "target": 0, "verdict": "good", )" + pose + "}"),
+                HasSubstr("links[0].verdict: \"good\" is not a verdict"));
+    EXPECT_THAT(complaint_of(R"({"source": 0, "target": 0, "verdict": "accepted"})"),
+                HasSubstr("\"target_from_source\" is missing"));
+    EXPECT_THROW(links_from_json(scene_to_json({})), IoError);
 }
 
 TEST(LayOutJson, KeepsKeyOrderAndPutsFlatArraysOnOneLine) {
