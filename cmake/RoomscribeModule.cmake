@@ -1,14 +1,14 @@
 # SPDX-License-Identifier: MIT
 # roomscribe_module(NAME [DEPENDS module...] [PUBLIC library...] [PRIVATE library...])
 #
-# Declares one module: a static library made of every source of the current folder. DEPENDS names
-# the roomscribe modules it may include from, all of them on lower floors (docs/architecture.md);
-# `./dev lint` holds the #include lines against it, and the header set makes every header compile
-# alone (target all_verify_interface_header_sets).
+# Declares one module: a static library made of every source in and below the current folder.
+# DEPENDS names the roomscribe modules it may include from, all of them on lower floors
+# (docs/architecture.md); `./dev lint` holds the #include lines against it, and the header set makes
+# every header compile alone (target all_verify_interface_header_sets).
 function(roomscribe_module name)
     cmake_parse_arguments(arg "" "" "DEPENDS;PUBLIC;PRIVATE" ${ARGN})
-    file(GLOB sources CONFIGURE_DEPENDS *.cpp)
-    file(GLOB headers CONFIGURE_DEPENDS *.hpp)
+    file(GLOB_RECURSE sources CONFIGURE_DEPENDS *.cpp)
+    file(GLOB_RECURSE headers CONFIGURE_DEPENDS *.hpp)
 
     set(target roomscribe_${name})
     add_library(${target} STATIC ${sources})

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+#include "roomscribe/evaluation/component_fit.hpp"
+
+#include <cmath>
+
+#include <Eigen/Geometry>
+
+#include "roomscribe/evaluation/polygon_overlap.hpp"
+#include "roomscribe/evaluation/protocol.hpp"
+#include "roomscribe/geometry/plane.hpp"
+
+namespace roomscribe {
+namespace {
+
+using Corners = std::vector<Eigen::Vector3d>;
+
+Eigen::Vector3d center_of(const Corners& corners) {
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    for (const Eigen::Vector3d& corner : corners)
+        sum += corner;
+    return sum / static_cast<double>(corners.size());
+}
+
+/// Plane through the corners' centre, with the normal of Newell; empty if they enclose no area.
+std::optional<Plane> plane_of(const Corners& corners) {
+    if (corners.size() < 3) return std::nullopt;
+    const Eigen::Vector3d center = center_of(corners);
+    Eigen::Vector3d normal = Eigen::Vector3d::Zero();
+    for (std::size_t i = 0; i < corners.size(); ++i)
+        normal += (corners[i] - center).cross(corners[(i + 1) % corners.size()] - center);
+    if (!(normal.norm() > 1e-12)) return std::nullopt;
+    normal.normalize();
+    return Plane{normal, normal.dot(center)};
+}
+
+}  // namespace
+
+std::optional<double> rectangle_iou(const Corners& true_corners, const Corners& detected_corners) {
+    const std::optional<Plane> true_plane = plane_of(true_corners);
+    const std::optional<Plane> detected_plane = plane_of(detected_corners);
+    if (!true_plane || !detected_plane) return std::nullopt;
+    // Which way round the corners run says nothing.
+    const double sine = true_plane->normal.cross(detected_plane->normal).norm();
+    const double cosine = std::abs(true_plane->normal.dot(detected_plane->normal));
+    const double distance = std::abs(true_plane->signed_distance(center_of(detected_corners)));
+    if (std::atan2(sine, cosine) > protocol::max_normal_angle + protocol::rounding ||
+        distance > protocol::max_plane_distance + protocol::rounding) {
+        return std::nullopt;
+    }
+    const PlaneAxes axes = plane_axes(true_plane->normal);
+    const auto flattened = [&](const Corners& corners) {
+        std::vector<Eigen::Vector2d> flat;
+        for (const Eigen::Vector3d& corner : corners) {
+            const Eigen::Vector3d offset = corner - true_corners.front();
+            flat.emplace_back(axes.u.dot(offset), axes.v.dot(offset));
+        }
+        return flat;
+    };
+    return polygon_iou(flattened(true_corners), flattened(detected_corners));
+}
+
+std::optional<Eigen::Vector3d> component_center(const Component& component) {
+    if (component.box) return component.box->center;
+    if (!component.polygon.empty()) return center_of(component.polygon);
+    if (component.grasp) return component.grasp->position;
+    return std::nullopt;
+}
+
+}  // namespace roomscribe

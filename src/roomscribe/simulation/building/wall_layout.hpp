@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "roomscribe/geometry/transform.hpp"
+#include "roomscribe/simulation/scenario.hpp"
+
+namespace roomscribe {
+
+/// One side of a room: the finished face of a wall. The room lies to the left of start -> end.
+struct WallFace {
+    std::size_t room = 0;
+    Eigen::Vector2d start = Eigen::Vector2d::Zero();
+    Eigen::Vector2d end = Eigen::Vector2d::Zero();
+
+    double length() const { return (end - start).norm(); }
+    Eigen::Vector2d along() const { return (end - start).normalized(); }
+    Eigen::Vector2d inward() const { return {-along().y(), along().x()}; }
+};
+
+/// All faces, room by room, in the order of their outlines.
+std::vector<WallFace> wall_faces(std::span<const RoomPlan> rooms);
+
+/// The face behind a point of a face: parallel within 2 degrees, looking the other way, at most
+/// 0.6 m off (the thickest inner walls are load-bearing ones of about 0.5 m).
+struct FarFace {
+    std::size_t face = 0;
+    double thickness = 0.0;  ///< m, of the wall between the two
+};
+std::optional<FarFace> find_far_face(std::span<const WallFace> faces, std::size_t face,
+                                     const Eigen::Vector2d& point);
+
+/// Where in the walls an opening is.
+struct OpeningSite {
+    std::size_t face = 0;
+    std::optional<std::size_t> far_face;  ///< empty for outdoors, and for a niche
+    double thickness = 0.0;               ///< of the wall
+    double floor = 0.0;                   ///< z of the room's floor
+    /// x to the left as seen from the room, y into the room, z up; the origin is the middle of the
+    /// opening on the wall face, at the floor.
+    Transform world_from_site = Transform::Identity();
+};
+
+/// Throws InvalidArgument if the room is not known, or `at` is not within 5 cm of one of its faces.
+OpeningSite locate_opening(const OpeningPlan& opening, std::span<const RoomPlan> rooms,
+                           std::span<const WallFace> faces, double outer_wall_thickness);
+
+/// Half the width of the hole in the wall, and its height: a door's frame is set into the hole.
+double hole_half_width(const OpeningPlan& opening);
+double hole_height(const OpeningPlan& opening);
+
+/// True inside a simple polygon.
+bool contains(std::span<const Eigen::Vector2d> outline, const Eigen::Vector2d& point);
+
+}  // namespace roomscribe

@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: MIT
+#include "roomscribe/simulation/scanning/station_plan.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "roomscribe/core/error.hpp"
+#include "roomscribe/core/units.hpp"
+#include "roomscribe/simulation/building/wall_layout.hpp"
+
+namespace roomscribe {
+namespace {
+
+using Eigen::Vector2d;
+
+constexpr double candidate_step = 0.2;
+constexpr double wall_clearance = 0.9;   ///< people keep off what a scanner is too near to see
+constexpr double item_clearance = 0.35;  ///< of what the scanner looks over
+constexpr double eye_height = 1.2;
+constexpr double passable_height = 2.0;  ///< what hangs higher does not bar the way
+
+/// How a scanner is carried.
+struct Carrier {
+    double lowest = 1.4;  ///< m, of its centre above the floor
+    double highest = 1.6;
+    double max_pitch = 1.5;  ///< degrees off level, either way
+    double mean_pitch = 0.0;
+    double turn = 0.0;  ///< degrees from scan to scan; 0: it sees all around
+    double step = 2.5;  ///< m from scan to scan
+};
+
+Carrier carrier_of(ScannerKind scanner) {
+    switch (scanner) {
+        case ScannerKind::sick_lms200:
+            return {0.5, 0.7, 1.0, 0.0, 75.0, 1.0};
+        case ScannerKind::hokuyo_utm30lx:
+            return {1.0, 1.3, 1.0, 0.0, 95.0, 1.0};
+        case ScannerKind::terrestrial:
+            return {1.35, 1.75, 0.6, 0.0, 0.0, 2.8};
+        case ScannerKind::structured_light:
+            return {1.2, 1.6, 6.0, 8.0, 20.0, 0.25};
+        case ScannerKind::spinning_lidar:
+            return {0.5, 1.5, 3.0, 0.0, 0.0, 1.5};
+    }
+    return {};
+}
+
+double distance_to_segment(const Vector2d& point, const Vector2d& a, const Vector2d& b) {
+    const Vector2d along = b - a;
+    const double share = std::clamp((point - a).dot(along) / along.squaredNorm(), 0.0, 1.0);
+    return (point - a - share * along).norm();
+}
+
+double distance_to_outline(const RoomPlan& room, const Vector2d& point) {
+    double nearest = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < room.outline.size(); ++i) {
+        nearest =
+            std::min(nearest, distance_to_segment(point, room.outline[i],
+                                                  room.outline[(i + 1) % room.outline.size()]));
+    }
+    return nearest;
+}
+
+/// Distance of a point to an item's footprint; 0 inside.
+double distance_to_item(const ItemPlan& item, const Vector2d& point) {
+    const double turn = radians(item.turn);
+    const Vector2d front(std::cos(turn), std::sin(turn));
+    const Vector2d left(-front.y(), front.x());
+    const Vector2d offset = point - item.at;
+    const double x = std::max(0.0, std::abs(offset.dot(front)) - item.size.x() / 2.0);
+    const double y = std::max(0.0, std::abs(offset.dot(left)) - item.size.y() / 2.0);
+    return std::hypot(x, y);
+}
+
+bool is_free(const Scenario& scenario, const RoomPlan& room, const Vector2d& point,
+             double share_of_clearance) {
+    if (!contains(room.outline, point) ||
+        distance_to_outline(room, point) < share_of_clearance * wall_clearance) {
+        return false;
+    }
+    const auto bars = [&](const ItemPlan& item) {
+        if (item.elevation >= room.floor_height + passable_height) return false;
+        const bool is_tall = item.elevation + item.size.z() > room.floor_height + eye_height;
+        return distance_to_item(item, point) <
+               share_of_clearance * (is_tall ? wall_clearance : item_clearance);
+    };
+    // Nobody stands in a doorway, where a leaf may swing.
+    const auto is_doorway = [&](const OpeningPlan& opening) {
+        return opening.kind == OpeningKind::door &&
+               (opening.at - point).norm() < share_of_clearance * opening.width;
+    };
+    return std::none_of(scenario.items.begin(), scenario.items.end(), bars) &&
+           std::none_of(scenario.openings.begin(), scenario.openings.end(), is_doorway);
+}
+
+std::vector<Vector2d> free_places(const Scenario& scenario, const RoomPlan& room) {
+    Vector2d low = room.outline.front();
+    Vector2d high = low;
+    for (const Vector2d& corner : room.outline) {
+        low = low.cwiseMin(corner);
+        high = high.cwiseMax(corner);
+    }
+    // A crowded room leaves less than one would wish.
+    for (const double share : {1.0, 0.7, 0.45, 0.3}) {
+        std::vector<Vector2d> places;
+        for (double x = low.x() + 0.1; x < high.x(); x += candidate_step) {
+            for (double y = low.y() + 0.1; y < high.y(); y += candidate_step) {
+                if (is_free(scenario, room, {x, y}, share)) places.emplace_back(x, y);
+            }
+        }
+        if (!places.empty()) return places;
+    }
+    throw InvalidArgument(fmt::format("items in room \"{}\"", room.name), "so many",
+                          "some free floor for a scanner");
+}
+
+Vector2d centroid(const std::vector<Vector2d>& points) {
+    Vector2d sum = Vector2d::Zero();
+    for (const Vector2d& point : points)
+        sum += point;
+    return sum / static_cast<double>(points.size());
+}
+
+/// The place for which `cost` is least.
+template <typename Cost>
+Vector2d best_place(const std::vector<Vector2d>& places, Cost&& cost) {
+    const auto better = [&](const Vector2d& a, const Vector2d& b) { return cost(a) < cost(b); };
+    return *std::min_element(places.begin(), places.end(), better);
+}
+
+Station station_at(const Vector2d& at, double floor, double heading, const Carrier& carrier,
+                   Random& random) {
+    Station station;
+    station.at.head<2>() = at;
+    station.at.z() = floor + random.uniform(carrier.lowest, carrier.highest);
+    station.heading = heading;
+    station.pitch = carrier.mean_pitch + random.uniform(-carrier.max_pitch, carrier.max_pitch);
+    station.roll = random.uniform(-carrier.max_pitch, carrier.max_pitch);
+    return station;
+}
+
+/// The first where most is seen, the others far from those before, but within reach.
+void add_surround_stations(std::vector<Station>& stations, const RoomPlan& room,
+                           const std::vector<Vector2d>& places, int count, const Carrier& carrier,
+                           Random& random) {
+    std::vector<Vector2d> chosen;
+    const Vector2d middle = centroid(places);
+    for (int i = 0; i < count; ++i) {
+        const double wish = carrier.step * random.uniform(0.8, 1.2);
+        const Vector2d place = best_place(places, [&](const Vector2d& candidate) {
+            if (chosen.empty()) return (candidate - middle).norm();
+            double nearest = std::numeric_limits<double>::infinity();
+            for (const Vector2d& other : chosen)
+                nearest = std::min(nearest, (candidate - other).norm());
+            return std::abs(nearest - wish);
+        });
+        chosen.push_back(place);
+    }
+    // Walked through from one end.
+    std::sort(chosen.begin() + (stations.empty() ? 1 : 0), chosen.end(),
+              [](const Vector2d& a, const Vector2d& b) { return a.x() < b.x(); });
+    for (const Vector2d& place : chosen) {
+        stations.push_back(
+            station_at(place, room.floor_height, random.uniform(-180.0, 180.0), carrier, random));
+    }
+}
+
+/// Back from what it looks at, near the station before.
+void add_turning_stations(std::vector<Station>& stations, const RoomPlan& room,
+                          const std::vector<Vector2d>& places, int count, const Carrier& carrier,
+                          Random& random) {
+    const Vector2d middle = centroid(places);
+    double heading = random.uniform(-180.0, 180.0);
+    Vector2d last = middle;
+    for (int i = 0; i < count; ++i) {
+        const Vector2d look(std::cos(radians(heading)), std::sin(radians(heading)));
+        const double wish = carrier.step * random.uniform(0.5, 1.0);
+        const Vector2d target = middle - 1.5 * wish * look;
+        const Vector2d place = best_place(places, [&](const Vector2d& candidate) {
+            const double too_far = std::max(0.0, (candidate - last).norm() - 2.0 * carrier.step);
+            return (candidate - target).norm() + too_far;
+        });
+        stations.push_back(station_at(place, room.floor_height, heading, carrier, random));
+        heading += carrier.turn * random.uniform(0.85, 1.15);
+        last = place;
+    }
+}
+
+}  // namespace
+
+std::vector<Station> choose_stations(const Scenario& scenario, std::span<const std::size_t> rooms,
+                                     int per_room, Random& random) {
+    const Carrier carrier = carrier_of(scenario.scanner);
+    std::vector<Station> stations;
+    for (const std::size_t index : rooms) {
+        const RoomPlan& room = scenario.rooms[index];
+        const std::vector<Vector2d> places = free_places(scenario, room);
+        if (carrier.turn > 0.0) {
+            add_turning_stations(stations, room, places, per_room, carrier, random);
+            continue;
+        }
+        double longest = 0.0;
+        for (const Vector2d& place : places)
+            longest = std::max(longest, (place - centroid(places)).norm() * 2.0);
+        const int more = static_cast<int>(longest / 6.0) * (per_room > 0 ? 1 : 0);
+        add_surround_stations(stations, room, places, per_room + more, carrier, random);
+    }
+    return stations;
+}
+
+int usual_scans_per_room(ScannerKind scanner) {
+    switch (scanner) {
+        case ScannerKind::sick_lms200:
+            return 4;
+        case ScannerKind::hokuyo_utm30lx:
+            return 4;
+        case ScannerKind::terrestrial:
+            return 2;
+        case ScannerKind::structured_light:
+            return 18;
+        case ScannerKind::spinning_lidar:
+            return 3;
+    }
+    return 1;
+}
+
+}  // namespace roomscribe
