@@ -61,6 +61,7 @@ void add_interpret_command(CLI::App& program, Action& action) {
         ->type_name("FILE")
         ->allow_extra_args(false);
     add_output(verb, *options);
+    add_truth(verb, *options);
     add_job_options(verb, *options);
     verb.callback([options, &action] {
         action = [options](const std::atomic<bool>& cancel) { return interpret(*options, cancel); };

@@ -4,7 +4,9 @@
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
+#include <optional>
 #include <thread>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -13,6 +15,8 @@
 #include "roomscribe/core/error.hpp"
 #include "roomscribe/geometry/bounding_box.hpp"
 #include "roomscribe/io/point_cloud_io.hpp"
+#include "roomscribe/pipeline/scoring.hpp"
+#include "roomscribe/pipeline/truth_folder.hpp"
 #include "roomscribe/pipeline/workspace.hpp"
 #include "roomscribe/report/html_report.hpp"
 
@@ -51,19 +55,33 @@ RunRecord make_record(std::string_view verb, const JobOptions& options,
     return record;
 }
 
+/// How the result compares with truth, where somebody knows it.
+std::optional<EvaluationSummary> score(const JobOptions& options,
+                                       const Reconstruction& reconstruction,
+                                       const Context& context) {
+    if (options.truth.empty()) return std::nullopt;
+    const GroundTruth truth = read_truth_folder(options.truth, context);
+    if (truth.map.cloud.size() != reconstruction.map.cloud.size()) {
+        throw IoError(options.truth, "truth folder", {},
+                      fmt::format("is of {} points, the scans have {}", truth.map.cloud.size(),
+                                  reconstruction.map.cloud.size()),
+                      "give the truth of these scans, in their order");
+    }
+    const Evaluation evaluation = score_reconstruction(truth, reconstruction, context);
+    return summarize({&evaluation, 1});
+}
+
 /// Returns where the report lies.
 std::filesystem::path write_results(const std::filesystem::path& folder,
                                     const Reconstruction& reconstruction,
-                                    std::span<const Scan> scans, const RunRecord& record,
+                                    std::span<const Scan> scans, ReportInfo info,
                                     const Context& context) {
     if (reconstruction.registration) write_registration(folder, reconstruction, scans, context);
     if (!reconstruction.labels.labels.empty()) {
         write_interpretation(folder, reconstruction, context);
     }
-    write_run_record(folder, record, reconstruction);
+    write_run_record(folder, info.run, reconstruction);
     std::filesystem::path report = folder / "report.html";
-    ReportInfo info;
-    info.run = record;
     write_html_report(report, reconstruction, info, context);
     return report;
 }
@@ -103,11 +121,14 @@ ExitCode run_job(std::string_view verb, const JobOptions& options, const std::at
     {
         ProgressDisplay display(options.progress);
         const Context context = make_context(options, cancel, display);
-        const RunRecord record = make_record(verb, options, settings);
+        ReportInfo info;
+        info.run = make_record(verb, options, settings);
         std::vector<Scan> scans = load_scans(options.inputs, context);
         reconstruction = work(scans, settings, context);
         context.throw_if_cancelled();
-        summary.report = write_results(output.path(), reconstruction, scans, record, context);
+        info.score = summary.score = score(options, reconstruction, context);
+        summary.report =
+            write_results(output.path(), reconstruction, scans, std::move(info), context);
     }
     summary.seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

@@ -45,6 +45,12 @@ void add_output(CLI::App& verb, JobOptions& options) {
         ->required();
 }
 
+void add_truth(CLI::App& verb, JobOptions& options) {
+    verb.add_option("--truth", options.truth,
+                    "Truth folder of these scans, as simulate writes it: score the result")
+        ->type_name("FOLDER");
+}
+
 PipelineSettings resolve_settings(const JobOptions& options) {
     PipelineSettings settings;
     if (!options.settings_file.empty()) apply_settings_file(settings, options.settings_file);

@@ -17,6 +17,7 @@ struct JobOptions {
     std::vector<std::string> inputs;
     std::vector<std::string> pose_files;  ///< of interpret
     std::string output;
+    std::string truth;  ///< folder; empty where nobody knows
     std::string settings_file;
     std::vector<std::string> assignments;
     std::optional<std::string> seed;
@@ -34,6 +35,9 @@ void add_scans(CLI::App& verb, JobOptions& options);
 
 /// Declares -o, which the verb needs.
 void add_output(CLI::App& verb, JobOptions& options);
+
+/// Declares --truth, which scores the result.
+void add_truth(CLI::App& verb, JobOptions& options);
 
 /// The defaults, with --config, --set and --seed on top, in this order.
 PipelineSettings resolve_settings(const JobOptions& options);

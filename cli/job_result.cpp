@@ -12,6 +12,7 @@
 
 #include "cli/text_table.hpp"
 #include "roomscribe/core/units.hpp"
+#include "roomscribe/evaluation/results_table.hpp"
 
 namespace roomscribe::cli {
 namespace {
@@ -218,6 +219,7 @@ std::string result_tables(const Reconstruction& reconstruction, const JobSummary
         text +=
             fmt::format("\n{}\n{}", room_lines(reconstruction.scene), label_table(reconstruction));
     }
+    if (summary.score) text += fmt::format("\n{}", summary_to_text(*summary.score));
     text += fmt::format("\nreport  {}\ntime    {:.1f} s\n", summary.report, summary.seconds);
     return text;
 }
@@ -242,6 +244,7 @@ std::string result_json(const Reconstruction& reconstruction, const JobSummary& 
         result["rooms"] = rooms_to_json(reconstruction.scene);
         result["labels"] = labels_to_json(reconstruction);
     }
+    if (summary.score) result["score"] = Json::parse(summary_to_json(*summary.score));
     return result.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <optional>
 #include <string>
 
+#include "roomscribe/evaluation/evaluation_summary.hpp"
 #include "roomscribe/pipeline/reconstruct.hpp"
 
 namespace roomscribe::cli {
@@ -12,6 +14,7 @@ struct JobSummary {
     std::string output;  ///< folder
     std::string report;  ///< file
     double seconds = 0.0;
+    std::optional<EvaluationSummary> score;  ///< against truth, where it was given
 };
 
 /// The tables that a job prints: scans, links, room, components, where the report lies.

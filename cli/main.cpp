@@ -14,6 +14,7 @@
 #include "cli/command.hpp"
 #include "cli/convert_command.hpp"
 #include "cli/demo_command.hpp"
+#include "cli/evaluate_command.hpp"
 #include "cli/explain_command.hpp"
 #include "cli/info_command.hpp"
 #include "cli/interpret_command.hpp"
@@ -21,6 +22,8 @@
 #include "cli/register_command.hpp"
 #include "cli/run_command.hpp"
 #include "cli/settings_command.hpp"
+#include "cli/simulate_command.hpp"
+#include "cli/suite_command.hpp"
 #include "cli/version_command.hpp"
 #include "roomscribe/core/error.hpp"
 
@@ -52,6 +55,9 @@ void declare_verbs(CLI::App& program, Action& action) {
     add_convert_command(program, action);
     add_info_command(program, action);
     add_explain_command(program, action);
+    add_evaluate_command(program, action);
+    add_simulate_command(program, action);
+    add_suite_command(program, action);
     add_demo_command(program, action);
     add_settings_command(program, action);
     add_version_command(program, action);

@@ -12,6 +12,7 @@ void add_run_command(CLI::App& program, Action& action) {
     CLI::App& verb = *program.add_subcommand("run", "Scans -> registered map, labels and model");
     add_scans(verb, *options);
     add_output(verb, *options);
+    add_truth(verb, *options);
     add_job_options(verb, *options);
     verb.callback([options, &action] {
         action = [options](const std::atomic<bool>& cancel) {

@@ -65,7 +65,7 @@ TEST_P(BadInput, GetsOneClearLineAndLeavesNothing) {
     const BadFile& bad = GetParam();
     const std::string path = (folder / bad.file_name).string();
     std::ofstream(path, std::ios::binary) << bad.content;
-    const std::string good = write_demo_scans(folder.path(), 1).front();
+    const std::string good = write_room_scans(folder.path(), 1).front();
     const std::string out = (folder / "deep" / "out").string();
 
     for (const std::vector<std::string>& job :
@@ -137,14 +137,14 @@ TEST(BadPath, FolderIsRefused) {
 TEST(BadPath, UnreadableFileIsNamed) {
     if (geteuid() == 0) GTEST_SKIP() << "root reads every file";
     const TemporaryFolder folder;
-    const std::string scan = write_demo_scans(folder.path(), 1).front();
+    const std::string scan = write_room_scans(folder.path(), 1).front();
     std::filesystem::permissions(scan, std::filesystem::perms::none);
     expect_error(roomscribe({"info", scan}), 3, {scan});
 }
 
 TEST(BadPath, PosesThatDoNotFitTheScansAreRefused) {
     const TemporaryFolder folder;
-    const std::string scan = write_demo_scans(folder.path(), 1).front();
+    const std::string scan = write_room_scans(folder.path(), 1).front();
     const std::string out = (folder / "out").string();
     const std::string poses = (folder / "poses.txt").string();
     const std::string identity = "1 0 0 0 0 1 0 0 0 0 1 0\n";
@@ -159,7 +159,7 @@ TEST(BadPath, PosesThatDoNotFitTheScansAreRefused) {
 
 TEST(PointsWithoutPlace, StayWhereTheyAreAndAreUnknown) {
     const TemporaryFolder folder;
-    const std::string path = write_demo_scans(folder.path(), 1).front();
+    const std::string path = write_room_scans(folder.path(), 1).front();
     Scan scan = read_scan(path);
     constexpr float infinity = std::numeric_limits<float>::infinity();
     for (std::size_t i = 0; i < scan.cloud.size(); i += 10) {

@@ -46,14 +46,14 @@ TEST(CommandLine, RefusesWhatItDoesNotKnow) {
 
 TEST(CommandLine, RefusesAnOutputThatIsAFile) {
     const TemporaryFolder folder;
-    const std::string scan = write_demo_scans(folder.path(), 1).front();
+    const std::string scan = write_room_scans(folder.path(), 1).front();
     expect_error(roomscribe({"interpret", scan, "-o", scan}), 3, {"scan1.ply"});
 }
 
 TEST(CommandLine, LeavesNoFileWhenInterrupted) {
     const TemporaryFolder folder;
     std::vector<std::string> arguments{"run"};
-    for (const std::string& scan : write_demo_scans(folder.path(), 3))
+    for (const std::string& scan : write_room_scans(folder.path(), 3))
         arguments.push_back(scan);
     const std::filesystem::path out = folder / "deep" / "out";
     arguments.insert(arguments.end(), {"-o", out.string(), "--progress", "json"});
@@ -67,7 +67,7 @@ TEST(CommandLine, LeavesNoFileWhenInterrupted) {
 
 TEST(CommandLine, ReportsProgressAsJsonLines) {
     const TemporaryFolder folder;
-    const std::string scan = write_demo_scans(folder.path(), 1).front();
+    const std::string scan = write_room_scans(folder.path(), 1).front();
     const ProgramResult result = roomscribe(
         {"interpret", scan, "-o", (folder / "out").string(), "--progress", "json", "--json"});
     EXPECT_EQ(result.exit_code, 0) << result.err;
@@ -88,7 +88,7 @@ TEST(CommandLine, ReportsProgressAsJsonLines) {
 
 TEST(CommandLine, IsQuietOnStderrWhenItIsNoTerminal) {
     const TemporaryFolder folder;
-    const std::string scan = write_demo_scans(folder.path(), 1).front();
+    const std::string scan = write_room_scans(folder.path(), 1).front();
     const ProgramResult result = roomscribe({"explain", scan});
     EXPECT_EQ(result.exit_code, 0);
     EXPECT_EQ(result.err, "");

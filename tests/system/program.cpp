@@ -6,8 +6,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "cli/demo_room.hpp"
 #include "roomscribe/io/point_cloud_io.hpp"
+#include "support/simulated_rooms.hpp"
 
 namespace roomscribe::test {
 
@@ -26,8 +26,8 @@ void expect_error(const ProgramResult& result, int exit_code,
         EXPECT_THAT(result.err, testing::HasSubstr(word));
 }
 
-std::vector<std::string> write_demo_scans(const std::filesystem::path& folder, std::size_t count) {
-    const std::vector<Scan> scans = cli::scan_demo_room();
+std::vector<std::string> write_room_scans(const std::filesystem::path& folder, std::size_t count) {
+    const std::vector<Scan> scans = scan_furnished_room(1);
     std::vector<std::string> paths;
     for (std::size_t i = 0; i < count; ++i) {
         paths.push_back((folder / scans.at(i).name).string());

@@ -21,8 +21,9 @@ ProgramResult roomscribe(const std::vector<std::string>& arguments,
 void expect_error(const ProgramResult& result, int exit_code,
                   const std::vector<std::string>& words);
 
-/// Writes the first `count` scans of the demo room as scan1.ply, ... and returns their paths.
-std::vector<std::string> write_demo_scans(const std::filesystem::path& folder, std::size_t count);
+/// Writes the first `count` scans of a small simulated room as scan1.ply, ... and returns their
+/// paths.
+std::vector<std::string> write_room_scans(const std::filesystem::path& folder, std::size_t count);
 
 /// Fails the test, and returns null, if the file is no JSON.
 nlohmann::json read_json(const std::filesystem::path& path);

@@ -50,7 +50,7 @@ TEST(Settings, WrongSettingsFileIsRefusedWithItsLine) {
 /// What run.json says of the settings after an interpretation with these arguments.
 nlohmann::json resolved_settings(const TemporaryFolder& folder,
                                  const std::vector<std::string>& extra) {
-    const std::string scan = write_demo_scans(folder.path(), 1).front();
+    const std::string scan = write_room_scans(folder.path(), 1).front();
     std::vector<std::string> arguments{"interpret", scan, "-o", (folder / "out").string()};
     arguments.insert(arguments.end(), extra.begin(), extra.end());
     EXPECT_EQ(roomscribe(arguments).exit_code, 0);

@@ -13,35 +13,13 @@
 #include "roomscribe/io/atomic_file.hpp"
 #include "roomscribe/io/point_cloud_io.hpp"
 #include "roomscribe/io/poses_io.hpp"
+#include "roomscribe/pipeline/file_coordinates.hpp"
 #include "roomscribe/pipeline/file_hash.hpp"
 
 namespace roomscribe {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-/// What holds between the shifted coordinates of clouds in memory, for the coordinates in files.
-Transform in_file_coordinates(const Transform& target_from_source,
-                              const Eigen::Vector3d& target_shift,
-                              const Eigen::Vector3d& source_shift) {
-    return Eigen::Translation3d(target_shift) * target_from_source *
-           Eigen::Translation3d(-source_shift);
-}
-
-Scene in_file_coordinates(Scene scene, const Eigen::Vector3d& shift) {
-    const auto move = [&shift](std::vector<Eigen::Vector3d>& polygon) {
-        for (Eigen::Vector3d& corner : polygon)
-            corner += shift;
-    };
-    for (Component& component : scene.components) {
-        move(component.polygon);
-        if (component.box) component.box->center += shift;
-    }
-    for (Room& room : scene.rooms)
-        move(room.polygon);
-    scene.room_from_map = in_file_coordinates(scene.room_from_map, Eigen::Vector3d::Zero(), shift);
-    return scene;
-}
 
 bool has_channel(const PointCloud& cloud, std::string_view name) {
     return std::any_of(cloud.channels.begin(), cloud.channels.end(),

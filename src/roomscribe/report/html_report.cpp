@@ -216,6 +216,7 @@ std::string render_html_report(const Reconstruction& reconstruction, const Repor
     html += section("Rooms", rooms_table(reconstruction));
     html += section("Components", components_table(reconstruction));
     html += section("Registration", links_table(reconstruction) + poses_table(reconstruction));
+    html += section("Score against truth", info.score ? scores_tables(*info.score) : std::string());
     html += section("Derived values", derived_values_table(reconstruction));
     html += section("Settings", settings_part(run));
     html += section("Cost", stages_table(reconstruction));

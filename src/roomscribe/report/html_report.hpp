@@ -3,9 +3,11 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include "roomscribe/core/context.hpp"
+#include "roomscribe/evaluation/evaluation_summary.hpp"
 #include "roomscribe/pipeline/reconstruct.hpp"
 #include "roomscribe/pipeline/workspace.hpp"
 
@@ -15,7 +17,8 @@ namespace roomscribe {
 struct ReportInfo {
     std::string title = "Scan report";
     RunRecord run;
-    std::size_t picture_width = 1400;  ///< pixels
+    std::optional<EvaluationSummary> score;  ///< against truth, where somebody knows it
+    std::size_t picture_width = 1400;        ///< pixels
 };
 
 /// One HTML file that opens without a network: summary, plan, section and registration pictures,

@@ -6,12 +6,14 @@
 #include <cmath>
 #include <map>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Eigenvalues>
 #include <fmt/format.h>
 
 #include "roomscribe/core/units.hpp"
+#include "roomscribe/evaluation/results_table.hpp"
 #include "roomscribe/pipeline/pipeline_settings.hpp"
 #include "roomscribe/report/html_text.hpp"
 
@@ -294,6 +296,23 @@ std::string stages_table(const Reconstruction& reconstruction) {
         table.html(megabytes(cost.peak_memory), fmt::format("{}", cost.peak_memory));
     }
     return table.finish();
+}
+
+std::string scores_tables(const EvaluationSummary& score) {
+    std::string html;
+    for (const ScoreTable& scores : score_tables(score)) {
+        std::vector<HtmlColumn> columns;
+        for (const std::string& title : scores.rows.front())
+            columns.push_back({title, !columns.empty()});
+        HtmlTable table(scores.group, std::move(columns));
+        for (std::size_t row = 1; row < scores.rows.size(); ++row) {
+            table.begin_row();
+            for (const std::string& cell : scores.rows[row])
+                table.text(cell);
+        }
+        html += table.finish();
+    }
+    return html;
 }
 
 std::string inputs_table(const RunRecord& run) {

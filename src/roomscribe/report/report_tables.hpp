@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "roomscribe/evaluation/evaluation_summary.hpp"
 #include "roomscribe/pipeline/reconstruct.hpp"
 #include "roomscribe/pipeline/workspace.hpp"
 
@@ -26,6 +27,9 @@ std::string derived_values_table(const Reconstruction& reconstruction);
 std::string changed_settings_table(const RunRecord& run);
 
 std::string stages_table(const Reconstruction& reconstruction);
+
+/// One table per group of scores: how the result compares with known truth.
+std::string scores_tables(const EvaluationSummary& score);
 
 std::string inputs_table(const RunRecord& run);
 

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "support/shapes.hpp"
+#include "support/simulated_rooms.hpp"
 
 namespace roomscribe {
 namespace {
