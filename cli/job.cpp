@@ -74,7 +74,7 @@ std::optional<EvaluationSummary> score(const JobOptions& options,
 /// Returns where the report lies.
 std::filesystem::path write_results(const std::filesystem::path& folder,
                                     const Reconstruction& reconstruction,
-                                    std::span<const Scan> scans, ReportInfo info,
+                                    std::span<const Scan> scans, const ReportInfo& info,
                                     const Context& context) {
     if (reconstruction.registration) write_registration(folder, reconstruction, scans, context);
     if (!reconstruction.labels.labels.empty()) {
@@ -127,8 +127,7 @@ ExitCode run_job(std::string_view verb, const JobOptions& options, const std::at
         reconstruction = work(scans, settings, context);
         context.throw_if_cancelled();
         info.score = summary.score = score(options, reconstruction, context);
-        summary.report =
-            write_results(output.path(), reconstruction, scans, std::move(info), context);
+        summary.report = write_results(output.path(), reconstruction, scans, info, context);
     }
     summary.seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

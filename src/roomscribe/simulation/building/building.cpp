@@ -326,17 +326,21 @@ void add_outdoors(SimulatedWorld& world, const Scenario& scenario, Random& rando
     for (int i = 0; i < 7; ++i) {
         const double angle = 2.0 * std::numbers::pi * (i + random.uniform(0.0, 0.5)) / 7.0;
         const double distance = reach + random.uniform(10.0, 35.0);
+        const double left = random.uniform(4.0, 9.0);
+        const double right = random.uniform(4.0, 9.0);
+        const double height = random.uniform(6.0, 15.0);
         Transform frame = at;
         frame.rotate(Eigen::AngleAxisd(angle, Vector3d::UnitZ()));
         frame.translate(Vector3d(distance, 0.0, 0.0));
-        add_box(world, houses, frame, {0.0, -random.uniform(4.0, 9.0), 0.0},
-                {8.0, random.uniform(4.0, 9.0), random.uniform(6.0, 15.0)});
+        add_box(world, houses, frame, {0.0, -left, 0.0}, {8.0, right, height});
+
+        const double tree_distance = reach + random.uniform(4.0, 9.0);
+        const double crown_height = random.uniform(2.5, 4.5);
+        const double crown_width = random.uniform(1.0, 2.0);
         Transform tree = at;
         tree.rotate(Eigen::AngleAxisd(angle + 0.45, Vector3d::UnitZ()));
-        tree.translate(Vector3d(reach + random.uniform(4.0, 9.0), 0.0, random.uniform(2.5, 4.5)));
-        add_ellipsoid(
-            world, trees, tree,
-            {random.uniform(1.0, 2.0), random.uniform(1.0, 2.0), random.uniform(1.2, 2.2)});
+        tree.translate(Vector3d(tree_distance, 0.0, crown_height));
+        add_ellipsoid(world, trees, tree, {crown_width, crown_width, 1.1 * crown_width});
     }
 }
 

@@ -429,8 +429,8 @@ Scenario plan_building(SceneKind kind, std::uint64_t seed) {
             break;
         case SceneKind::kitchen:
             lay_out_room(scenario, "kitchen",
-                         rectangle(0.0, 0.0, random.uniform(2.8, 5.0), random.uniform(2.8, 5.0)),
-                         ceiling, random);
+                         rectangle(0.0, 0.0, std::min(width, 5.0), std::min(depth, 5.0)), ceiling,
+                         random);
             break;
         case SceneKind::corridor:
             lay_out_hall(scenario, corridor_plan(random), random);

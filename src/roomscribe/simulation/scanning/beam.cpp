@@ -14,7 +14,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr std::size_t num_sub_rays = 12;
+constexpr std::size_t num_sub_rays = 8;
 /// Depths closer than this in one beam are one surface, to anyone who looks at the points.
 constexpr double same_depth = 0.03;
 

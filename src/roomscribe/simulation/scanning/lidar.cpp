@@ -27,13 +27,61 @@ std::uint64_t row_stream(std::size_t row) {
 /// What is the same in every scan of a device: the calibration of its beams.
 constexpr std::uint64_t device_seed = 64;
 
+/// Directions of a scanner whose rows and columns are angles, from tables of their sines.
+class BeamDirections {
+  public:
+    BeamDirections(const ScannerModel& model, const std::vector<double>& row_errors)
+        : is_tilting_(model.pattern == ScanPattern::tilting_plane) {
+        for (std::size_t row = 0; row < model.num_rows(); ++row) {
+            rows_.push_back(turn_by(model.row_angles[row]));
+            true_rows_.push_back(turn_by(model.row_angles[row] + row_errors[row]));
+        }
+        for (std::size_t column = 0; column < model.num_columns; ++column) {
+            columns_.push_back(
+                turn_by(model.first_column + model.column_step * static_cast<double>(column)));
+        }
+    }
+
+    /// Where the scanner believes that the ray goes.
+    Vector3d nominal(std::size_t row, std::size_t column) const {
+        return direction(rows_[row], columns_[column]);
+    }
+
+    /// With the error of the row, and a small one of the column in radians.
+    Vector3d with_errors(std::size_t row, std::size_t column, double column_error) const {
+        const Turn& v = columns_[column];
+        const Turn beside{v.cosine - column_error * v.sine, v.sine + column_error * v.cosine};
+        return direction(true_rows_[row], beside);
+    }
+
+  private:
+    struct Turn {
+        double cosine;
+        double sine;
+    };
+    static Turn turn_by(double angle) { return {std::cos(angle), std::sin(angle)}; }
+
+    Vector3d direction(const Turn& u, const Turn& v) const {
+        if (is_tilting_) return {u.cosine * v.cosine, v.sine, -u.sine * v.cosine};
+        return {u.cosine * v.cosine, u.cosine * v.sine, u.sine};
+    }
+
+    bool is_tilting_;
+    std::vector<Turn> rows_;
+    std::vector<Turn> true_rows_;
+    std::vector<Turn> columns_;
+};
+
 class BeamScanner {
   public:
     BeamScanner(const RayCaster& caster, const ScannerModel& model,
                 const Transform& world_from_scan, std::uint64_t seed)
-        : caster_(caster), model_(model), world_from_scan_(world_from_scan), seed_(seed) {
+        : caster_(caster),
+          model_(model),
+          world_from_scan_(world_from_scan),
+          seed_(seed),
+          directions_(model, draw_row_errors(model, seed)) {
         for (std::size_t row = 0; row < model.num_rows(); ++row) {
-            row_errors_.push_back(model.row_jitter * Random(seed, row_stream(row)).normal());
             row_biases_.push_back(model.row_bias * Random(device_seed, row_stream(row)).normal());
         }
         echoes_.resize(model.num_rows() * model.num_columns);
@@ -41,9 +89,8 @@ class BeamScanner {
 
     /// Where the ray truly goes, as opposed to where the scanner believes that it does.
     Vector3d true_direction(std::size_t row, std::size_t column, Random& random) const {
-        const double error = model_.ray_jitter * random.normal();
         return world_from_scan_.linear() *
-               ray_direction(model_, row, column, row_errors_[row], error);
+               directions_.with_errors(row, column, model_.ray_jitter * random.normal());
     }
 
     void trace(std::size_t row) {
@@ -61,6 +108,13 @@ class BeamScanner {
     }
 
   private:
+    static std::vector<double> draw_row_errors(const ScannerModel& model, std::uint64_t seed) {
+        std::vector<double> errors;
+        for (std::size_t row = 0; row < model.num_rows(); ++row)
+            errors.push_back(model.row_jitter * Random(seed, row_stream(row)).normal());
+        return errors;
+    }
+
     void record_ray(std::size_t row, std::size_t column, SimulatedScan& scan) const {
         const std::size_t ray = row * model_.num_columns + column;
         Random random(seed_, reading_stream(ray));
@@ -83,7 +137,7 @@ class BeamScanner {
         if (range < model_.min_range || range > model_.max_range) return;
 
         const WorldPart& part = caster_.world().parts[found.echo.part];
-        scan.scan.cloud.positions[ray] = (range * ray_direction(model_, row, column)).cast<float>();
+        scan.scan.cloud.positions[ray] = (range * directions_.nominal(row, column)).cast<float>();
         scan.scan.cloud.intensities[ray] =
             found.echo.strength * static_cast<float>(1.0 + 0.05 * random.normal());
         if (is_outlier || found.echo.is_ghost) return;
@@ -154,7 +208,7 @@ class BeamScanner {
     const ScannerModel& model_;
     Transform world_from_scan_;
     std::uint64_t seed_;
-    std::vector<double> row_errors_;
+    BeamDirections directions_;
     std::vector<double> row_biases_;
     std::vector<Echo> echoes_;
 };
