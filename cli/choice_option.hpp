@@ -1,12 +1,24 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <map>
 #include <string>
+#include <string_view>
 
 #include <CLI/App.hpp>
 
 namespace roomscribe::cli {
+
+/// Words for the enumerators from value 0 on.
+template <typename Enum, std::size_t Size>
+std::map<std::string, Enum> words_of(const std::array<std::string_view, Size>& names) {
+    std::map<std::string, Enum> words;
+    for (std::size_t i = 0; i < Size; ++i)
+        words.emplace(names[i], static_cast<Enum>(i));
+    return words;
+}
 
 /// Declares an option whose value is one of the words; another word is refused with the list.
 template <typename Enum>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "cli/evaluate_command.hpp"
 
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -35,8 +36,10 @@ Evaluation evaluate(const EvaluateOptions& options, const Context& context) {
     }
     const std::optional<LabelConvention> convention = find_label_convention(options.convention);
     if (!convention) throw UsageError("--convention must be s3dis, not " + options.convention);
-    return compare(read_labelled_cloud(options.truth, *convention, context),
-                   convention->detected_labels);
+    const GroundTruth truth = read_labelled_cloud(options.truth, *convention, context);
+    const bool has_instances = std::any_of(truth.instances.begin(), truth.instances.end(),
+                                           [](std::int32_t instance) { return instance >= 0; });
+    return compare(truth, has_instances ? convention->detected_labels : LabelSet{0});
 }
 
 ExitCode print_evaluation(const EvaluateOptions& options, const std::atomic<bool>& cancel) {

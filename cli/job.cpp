@@ -55,6 +55,16 @@ RunRecord make_record(std::string_view verb, const JobOptions& options,
     return record;
 }
 
+/// True if the points of two maps lie in the same places, to the rounding of files.
+bool lie_in_one_frame(const ScanMap& a, const ScanMap& b) {
+    constexpr float tolerance = 0.01F;
+    for (std::size_t i = 0; i < a.cloud.size(); ++i) {
+        const Eigen::Vector3f& point = a.cloud.positions[i];
+        if (is_finite(point) && !((point - b.cloud.positions[i]).norm() < tolerance)) return false;
+    }
+    return true;
+}
+
 /// How the result compares with truth, where somebody knows it.
 std::optional<EvaluationSummary> score(const JobOptions& options,
                                        const Reconstruction& reconstruction,
@@ -66,6 +76,10 @@ std::optional<EvaluationSummary> score(const JobOptions& options,
                       fmt::format("is of {} points, the scans have {}", truth.map.cloud.size(),
                                   reconstruction.map.cloud.size()),
                       "give the truth of these scans, in their order");
+    }
+    if (!reconstruction.registration && !lie_in_one_frame(truth.map, reconstruction.map)) {
+        throw UsageError("the map is not in the frame of " + options.truth +
+                         ": interpret its map.ply, or its scans with its truth/poses.txt");
     }
     const Evaluation evaluation = score_reconstruction(truth, reconstruction, context);
     return summarize({&evaluation, 1});

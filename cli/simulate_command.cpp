@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <map>
 #include <memory>
 #include <string>
 
@@ -27,17 +26,10 @@ struct SimulateOptions {
     std::string output;
     std::uint64_t seed = 1;
     SceneOptions scene;
+    bool has_scene_options = false;
     bool is_plan_only = false;
     int num_threads = 0;
 };
-
-template <typename Enum, std::size_t Size>
-std::map<std::string, Enum> words_of(const std::array<std::string_view, Size>& names) {
-    std::map<std::string, Enum> words;
-    for (std::size_t i = 0; i < Size; ++i)
-        words.emplace(names[i], static_cast<Enum>(i));
-    return words;
-}
 
 Scenario resolve_scenario(const SimulateOptions& options) {
     const auto found = std::find(scene_kind_names.begin(), scene_kind_names.end(), options.kind);
@@ -48,6 +40,11 @@ Scenario resolve_scenario(const SimulateOptions& options) {
     if (std::filesystem::path(options.kind).extension() != ".json") {
         throw UsageError(fmt::format("KIND is \"{}\", must be one of {}, or a scenario.json",
                                      options.kind, fmt::join(scene_kind_names, ", ")));
+    }
+    if (options.has_scene_options) {
+        throw UsageError(
+            "a scenario.json has its own seed, scanner, stations and coarseness: "
+            "change them there");
     }
     const MappedFile file(options.kind, "scenario");
     return scenario_from_json(file.text(), options.kind);
@@ -109,7 +106,9 @@ void add_simulate_command(CLI::App& program, Action& action) {
     verb.add_option("--threads", options->num_threads, "0: all of the machine's")
         ->type_name("N")
         ->capture_default_str();
-    verb.callback([options, &action] {
+    verb.callback([options, &verb, &action] {
+        for (const char* name : {"--seed", "--scanner", "--scans", "--coarseness"})
+            options->has_scene_options |= verb.count(name) > 0;
         action = [options](const std::atomic<bool>& cancel) { return simulate(*options, cancel); };
     });
 }

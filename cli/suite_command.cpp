@@ -139,20 +139,13 @@ ExitCode suite(const SuiteOptions& options, const std::atomic<bool>& cancel) {
     return ExitCode::done;
 }
 
-std::map<std::string, SuiteName> suite_words() {
-    std::map<std::string, SuiteName> words;
-    for (std::size_t i = 0; i < suite_names.size(); ++i)
-        words.emplace(suite_names[i], static_cast<SuiteName>(i));
-    return words;
-}
-
 }  // namespace
 
 void add_suite_command(CLI::App& program, Action& action) {
     const auto options = std::make_shared<SuiteOptions>();
     CLI::App& verb = *program.add_subcommand(
         "suite", "Make, run and score the simulated scenes of a suite, without options");
-    add_choice_option<SuiteName>(verb, "SUITE", options->suite, suite_words(),
+    add_choice_option<SuiteName>(verb, "SUITE", options->suite, words_of<SuiteName>(suite_names),
                                  fmt::format("{}", fmt::join(suite_names, ", ")))
         ->type_name("")
         ->required();

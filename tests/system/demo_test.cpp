@@ -53,7 +53,7 @@ TEST(Demo, ShowsTheScoreBesideTheResult) {
     const auto& score = json.at("score");
     EXPECT_EQ(score.at("detection").at("floor").at("correct"), 1);
     EXPECT_EQ(score.at("detection").at("ceiling").at("correct"), 1);
-    EXPECT_EQ(score.at("detection").at("wall").at("correct"), 4);
+    EXPECT_GE(score.at("detection").at("wall").at("correct"), 4);
     EXPECT_GE(score.at("points").at("floor").at("iou"), 0.95);
     EXPECT_LT(score.at("axes").at("up").at("max"), 0.3);
     EXPECT_EQ(score.at("recall").at("0.1 m, 1 deg").at("recall"), 1.0);

@@ -59,6 +59,20 @@ std::optional<double> rectangle_iou(const Corners& true_corners, const Corners& 
     return polygon_iou(flattened(true_corners), flattened(detected_corners));
 }
 
+bool lie_in_one_place(const Component& of_truth, const Component& detected) {
+    if (!of_truth.polygon.empty() && !detected.polygon.empty()) {
+        return rectangle_iou(of_truth.polygon, detected.polygon).value_or(0.0) >=
+               protocol::min_iou - protocol::rounding;
+    }
+    if (!of_truth.box || !detected.box) return false;
+    const Eigen::Vector3d offset = detected.box->center - of_truth.box->center;
+    for (Eigen::Index axis = 0; axis < 3; ++axis) {
+        const Eigen::Vector3d& direction = of_truth.box->axes[static_cast<std::size_t>(axis)];
+        if (std::abs(direction.dot(offset)) > of_truth.box->size(axis) / 2.0) return false;
+    }
+    return true;
+}
+
 std::optional<Eigen::Vector3d> component_center(const Component& component) {
     if (component.box) return component.box->center;
     if (!component.polygon.empty()) return center_of(component.polygon);

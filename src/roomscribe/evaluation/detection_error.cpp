@@ -212,10 +212,19 @@ DetectionError evaluate_detections(const GroundTruth& truth, const Prediction& p
         const auto [of_truth, detected] = components_at(t, p);
         return center_score(of_truth, detected);
     };
+    // Nobody can hold it against a result that it knows of what the scans hardly saw.
+    const auto is_hidden_truth = [&](std::size_t p) {
+        const Component& detected = predicted_scene.components[p];
+        return std::any_of(true_scene.components.begin(), true_scene.components.end(),
+                           [&](const Component& of_truth) {
+                               return of_truth.label == detected.label && !is_counted(of_truth) &&
+                                      lie_in_one_place(of_truth, detected);
+                           });
+    };
     const auto is_left_out = [&](std::size_t p) {
         const Label label = predicted_scene.components[p].label;
         if (!protocol::contains(protocol::instance_labels, label)) return false;
-        if (!overlap.predicted_has_points[p]) return true;
+        if (!overlap.predicted_has_points[p]) return is_hidden_truth(p);
         return overlap.predicted_left_out[p] > 0.0 &&
                overlap.predicted_left_out[p] >= overlap.predicted_size[p];
     };

@@ -21,30 +21,6 @@ Transform predicted_from_true_map(const GroundTruth& truth, const Prediction& pr
     return *prediction.map_from_scan[*anchor] * truth.map_from_scan.at(*anchor).inverse();
 }
 
-Scene transformed_scene(Scene scene, const Transform& target_from_source) {
-    const auto move = [&](std::vector<Eigen::Vector3d>& polygon) {
-        for (Eigen::Vector3d& corner : polygon)
-            corner = target_from_source * corner;
-    };
-    for (Component& component : scene.components) {
-        move(component.polygon);
-        if (component.box) {
-            component.box->center = target_from_source * component.box->center;
-            for (Eigen::Vector3d& axis : component.box->axes)
-                axis = target_from_source.linear() * axis;
-        }
-        if (component.grasp) {
-            component.grasp->position = target_from_source * component.grasp->position;
-            component.grasp->axis = target_from_source.linear() * component.grasp->axis;
-            component.grasp->approach = target_from_source.linear() * component.grasp->approach;
-        }
-    }
-    for (Room& room : scene.rooms)
-        move(room.polygon);
-    scene.room_from_map = scene.room_from_map * target_from_source.inverse();
-    return scene;
-}
-
 std::vector<std::size_t> whole_of_component(const Scene& scene) {
     const std::vector<Component>& components = scene.components;
     std::unordered_map<std::string_view, std::size_t> furniture;
@@ -55,12 +31,15 @@ std::vector<std::size_t> whole_of_component(const Scene& scene) {
     for (std::size_t i = 0; i < components.size(); ++i) {
         whole[i] = i;
         if (components[i].label != Label::furniture) continue;
-        // A chain of parents that bites its own tail ends after as many steps as there are pieces.
-        for (std::size_t steps = 0; steps < furniture.size(); ++steps) {
-            const auto parent = furniture.find(components[whole[i]].parent);
-            if (parent == furniture.end()) break;
-            whole[i] = parent->second;
+        std::size_t end = i;
+        std::size_t steps = 0;
+        for (auto parent = furniture.find(components[end].parent);
+             parent != furniture.end() && steps <= furniture.size();
+             parent = furniture.find(components[end].parent), ++steps) {
+            end = parent->second;
         }
+        // A chain that bites its own tail has no end: each link counts for itself.
+        if (steps <= furniture.size()) whole[i] = end;
     }
     return whole;
 }

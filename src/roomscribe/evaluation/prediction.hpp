@@ -30,9 +30,6 @@ std::optional<std::size_t> anchor_scan(const Prediction& prediction);
 /// where there is none. Drift of the result away from its anchor thus counts against it.
 Transform predicted_from_true_map(const GroundTruth& truth, const Prediction& prediction);
 
-/// The scene in another frame: polygons, boxes, grasps, rooms and the way to the room frame.
-Scene transformed_scene(Scene scene, const Transform& target_from_source);
-
 /// For each component, which one it counts with: the furniture piece at the end of its chain of
 /// furniture parents for a face of furniture, itself for any other.
 std::vector<std::size_t> whole_of_component(const Scene& scene);

@@ -60,7 +60,10 @@ ScoreGroup detection_scores(const EvaluationSummary& summary) {
         add_counts(group, summary.detections[id]);
         all += summary.detections[id];
     }
-    all.scenes = all.ground_truth > 0 ? summary.scenes : 0;
+    // In how many scenes the most common label is: all of them, in practice.
+    all.scenes = 0;
+    for (const DetectionCounts& counts : summary.detections)
+        all.scenes = std::max(all.scenes, counts.scenes);
     group.start_row("all");
     add_counts(group, all);
     return group;

@@ -49,7 +49,7 @@ struct Component {
     std::string id;  ///< "wall-3"
     Label label = Label::unknown;
     std::string kind;                      ///< finer class, or empty
-    std::int32_t instance = 0;             ///< what labels.ply calls it
+    std::int32_t instance = -1;            ///< what labels.ply calls it
     std::string parent;                    ///< id of a room or component, or empty
     std::vector<Eigen::Vector3d> polygon;  ///< corners in order, on the component's plane
     std::optional<OrientedBox> box;
@@ -84,6 +84,9 @@ struct Scene {
     std::vector<Component> components;
     std::vector<Room> rooms;
 };
+
+/// The scene in another frame: polygons, boxes, grasps, rooms and the way to the room frame.
+Scene transformed_scene(Scene scene, const Transform& target_from_source);
 
 /// For every point of the map, in its order.
 struct PointLabels {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "roomscribe/pipeline/file_coordinates.hpp"
 
+#include <utility>
+
 namespace roomscribe {
 
 Transform in_file_coordinates(const Transform& target_from_source,
@@ -11,19 +13,7 @@ Transform in_file_coordinates(const Transform& target_from_source,
 }
 
 Scene in_file_coordinates(Scene scene, const Eigen::Vector3d& shift) {
-    const auto move = [&shift](std::vector<Eigen::Vector3d>& polygon) {
-        for (Eigen::Vector3d& corner : polygon)
-            corner += shift;
-    };
-    for (Component& component : scene.components) {
-        move(component.polygon);
-        if (component.box) component.box->center += shift;
-        if (component.grasp) component.grasp->position += shift;
-    }
-    for (Room& room : scene.rooms)
-        move(room.polygon);
-    scene.room_from_map = in_file_coordinates(scene.room_from_map, Eigen::Vector3d::Zero(), shift);
-    return scene;
+    return transformed_scene(std::move(scene), Transform(Eigen::Translation3d(shift)));
 }
 
 }  // namespace roomscribe

@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "roomscribe/core/error.hpp"
+#include "roomscribe/evaluation/protocol.hpp"
 #include "roomscribe/export/json.hpp"
 #include "roomscribe/io/atomic_file.hpp"
 #include "roomscribe/io/byte_reader.hpp"
@@ -134,7 +135,7 @@ std::vector<LabelSet> read_acceptable(const fs::path& path, const GroundTruth& t
     if (!fs::exists(path)) return derive_acceptable(truth);
     std::vector<LabelSet> acceptable = read_per_point<LabelSet>(path, truth.labels.size());
     for (std::size_t i = 0; i < acceptable.size(); ++i)
-        acceptable[i] |= label_bit(truth.labels[i]);
+        acceptable[i] = (acceptable[i] | label_bit(truth.labels[i])) & protocol::every_label;
     return acceptable;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "roomscribe/simulation/simulated_scene.hpp"
 
+#include <algorithm>
 #include <optional>
 #include <span>
 
@@ -9,6 +10,7 @@
 #include "roomscribe/core/error.hpp"
 #include "roomscribe/core/random.hpp"
 #include "roomscribe/simulation/building/building.hpp"
+#include "roomscribe/simulation/building/wall_layout.hpp"
 #include "roomscribe/simulation/furnishing/furnishing.hpp"
 #include "roomscribe/simulation/scanning/ray_caster.hpp"
 #include "roomscribe/simulation/scanning/scanner.hpp"
@@ -25,11 +27,30 @@ constexpr std::uint64_t frame_stream = 4;
 constexpr std::uint64_t first_scan_stream = 100;
 
 void check_options(const SceneOptions& options) {
-    if (!(options.coarseness >= 0.25 && options.coarseness <= 20.0)) {
-        throw InvalidArgument("coarseness", fmt::format("{}", options.coarseness), "0.25 to 20");
+    if (!(options.coarseness >= 0.5 && options.coarseness <= 20.0)) {
+        throw InvalidArgument("coarseness", fmt::format("{}", options.coarseness), "0.5 to 20");
     }
     if (options.scans_per_room < 0 || options.scans_per_room > 100) {
         throw InvalidArgument("scans", fmt::format("{}", options.scans_per_room), "0 to 100");
+    }
+}
+
+void check_scenario(const Scenario& scenario) {
+    if (scenario.stations.empty()) {
+        throw InvalidArgument("stations", "none", "at least one place to scan from");
+    }
+    for (const Station& station : scenario.stations) {
+        const bool is_inside =
+            std::any_of(scenario.rooms.begin(), scenario.rooms.end(), [&](const RoomPlan& room) {
+                return room.outline.size() > 2 && contains(room.outline, station.at.head<2>()) &&
+                       station.at.z() > room.floor_height && station.at.z() < room.ceiling_height;
+            });
+        if (!is_inside) {
+            throw InvalidArgument(
+                "station",
+                fmt::format("at ({}, {}, {})", station.at.x(), station.at.y(), station.at.z()),
+                "a place inside a room, between its floor and ceiling");
+        }
     }
 }
 
@@ -45,32 +66,6 @@ Transform random_world_frame(std::uint64_t seed) {
     for (double& coordinate : map_from_building.translation())
         coordinate = random.uniform(-10.0, 10.0);
     return map_from_building;
-}
-
-void move_component(Component& component, const Transform& target_from_source) {
-    for (Eigen::Vector3d& corner : component.polygon)
-        corner = target_from_source * corner;
-    if (component.box) {
-        component.box->center = target_from_source * component.box->center;
-        for (Eigen::Vector3d& axis : component.box->axes)
-            axis = target_from_source.linear() * axis;
-    }
-    if (component.grasp) {
-        component.grasp->position = target_from_source * component.grasp->position;
-        component.grasp->axis = target_from_source.linear() * component.grasp->axis;
-        component.grasp->approach = target_from_source.linear() * component.grasp->approach;
-    }
-}
-
-Scene moved_scene(Scene scene, const Transform& map_from_building) {
-    scene.room_from_map = map_from_building.inverse();
-    for (Component& component : scene.components)
-        move_component(component, map_from_building);
-    for (Room& room : scene.rooms) {
-        for (Eigen::Vector3d& corner : room.polygon)
-            corner = map_from_building * corner;
-    }
-    return scene;
 }
 
 SimulatedWorld build_world(const Scenario& scenario) {
@@ -117,9 +112,7 @@ Scenario plan_scene(SceneKind kind, std::uint64_t seed, const SceneOptions& opti
 }
 
 SimulatedScene simulate_scene(const Scenario& scenario, const Context& context) {
-    if (scenario.stations.empty()) {
-        throw InvalidArgument("stations", "none", "at least one place to scan from");
-    }
+    check_scenario(scenario);
     SimulatedWorld world = build_world(scenario);
     const RayCaster caster(world);
     const Transform map_from_building = random_world_frame(scenario.seed);
@@ -145,7 +138,7 @@ SimulatedScene simulate_scene(const Scenario& scenario, const Context& context) 
     measure_visibility(
         world.scene, caster, scenario.scanner, scenario.coarseness, scenario.stations,
         points_of_components(truth.instances, world.scene.components.size()), context);
-    truth.scene = moved_scene(std::move(world.scene), map_from_building);
+    truth.scene = transformed_scene(std::move(world.scene), map_from_building);
     truth.map = merge_scans(scene.scans, poses);
     return scene;
 }

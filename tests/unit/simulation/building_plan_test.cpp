@@ -8,8 +8,8 @@
 #include "roomscribe/core/random.hpp"
 #include "roomscribe/geometry/polygon.hpp"
 #include "roomscribe/simulation/building/building.hpp"
-#include "roomscribe/simulation/scanning/station_plan.hpp"
 #include "roomscribe/simulation/building/wall_layout.hpp"
+#include "roomscribe/simulation/simulated_scene.hpp"
 
 namespace roomscribe {
 namespace {
@@ -126,21 +126,29 @@ TEST(BuildingPlan, EveryRoomHasAWayIn) {
     EXPECT_LE(num_without, num_rooms / 50) << "of " << num_rooms;
 }
 
-TEST(StationPlan, StandsOnFreeFloor) {
-    for_all_buildings([](SceneKind kind, Scenario scenario) {
-        for (const ScannerKind scanner : {ScannerKind::sick_lms200, ScannerKind::terrestrial}) {
-            scenario.scanner = scanner;
-            Random random(scenario.seed);
+TEST(StationPlan, StandsOnFreeFloorAndSeesTheRoom) {
+    for (const SceneKind kind : {SceneKind::kitchen, SceneKind::flat, SceneKind::office}) {
+        for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+            const Scenario scenario = plan_scene(kind, seed, {ScannerKind::terrestrial, 2, 20.0});
             const std::vector<std::size_t> rooms = rooms_to_scan(kind, scenario);
-            const std::vector<Station> stations = choose_stations(scenario, rooms, 2, random);
-            EXPECT_GE(stations.size(), 2 * rooms.size());
-            for (const Station& station : stations) {
+            EXPECT_GE(scenario.stations.size(), 2 * rooms.size());
+            const SimulatedScene scene = simulate_scene(scenario);
+            for (std::size_t i = 0; i < scene.scans.size(); ++i) {
+                SCOPED_TRACE(scenario.name + " station " + std::to_string(i));
                 EXPECT_TRUE(std::any_of(rooms.begin(), rooms.end(), [&](std::size_t room) {
-                    return contains(scenario.rooms[room].outline, station.at.head<2>());
+                    return contains(scenario.rooms[room].outline,
+                                    scenario.stations[i].at.head<2>());
                 }));
+                const PointCloud& cloud = scene.scans[i].cloud;
+                EXPECT_GT(finite_points(cloud).size(), cloud.size() * 7 / 10);
+                for (std::size_t j = 0; j < i; ++j) {
+                    const double apart =
+                        (scenario.stations[i].at - scenario.stations[j].at).head<2>().norm();
+                    EXPECT_GT(apart, 0.15) << "as station " << j;
+                }
             }
         }
-    });
+    }
 }
 
 }  // namespace

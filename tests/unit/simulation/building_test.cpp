@@ -8,8 +8,8 @@
 
 #include "roomscribe/core/error.hpp"
 #include "roomscribe/core/random.hpp"
-#include "roomscribe/simulation/scanning/ray_caster.hpp"
 #include "roomscribe/simulation/building/wall_layout.hpp"
+#include "roomscribe/simulation/scanning/ray_caster.hpp"
 #include "support/shapes.hpp"
 
 namespace roomscribe {
@@ -164,6 +164,8 @@ TEST(Building, ALeverSitsOnEachSideOfTheLeafAwayFromTheHinge) {
         ASSERT_TRUE(lever->grasp.has_value());
         EXPECT_NEAR(std::abs(lever->grasp->approach.x()), 1.0, 1e-9);
         EXPECT_NEAR(lever->grasp->position.z(), 1.05, 1e-9);
+        const auto& axes = lever->box->axes;
+        EXPECT_NEAR(axes[0].cross(axes[1]).dot(axes[2]), 1.0, 1e-9) << "left-handed";
         // Hinged left as seen from the room: along the face at x = 4 that is towards +y.
         EXPECT_LT(lever->grasp->position.y(), 1.5);
     }

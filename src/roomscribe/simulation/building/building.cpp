@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <set>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -352,6 +354,13 @@ void add_building(SimulatedWorld& world, const Scenario& scenario) {
     }
     Random random(scenario.seed, 1);
     const std::vector<WallFace> faces = wall_faces(scenario.rooms);
+    std::set<std::string_view> names;
+    for (const RoomPlan& room : scenario.rooms) {
+        if (!names.insert(room.name).second) {
+            throw InvalidArgument("rooms", fmt::format("two called \"{}\"", room.name),
+                                  "a name of its own for each room");
+        }
+    }
     BuildingIndex index;
     for (const RoomPlan& room : scenario.rooms)
         add_room(world, room, index, random);

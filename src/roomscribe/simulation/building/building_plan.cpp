@@ -9,6 +9,7 @@
 
 #include "roomscribe/core/random.hpp"
 #include "roomscribe/core/units.hpp"
+#include "roomscribe/geometry/polygon.hpp"
 #include "roomscribe/simulation/building/wall_layout.hpp"
 
 namespace roomscribe {
@@ -31,12 +32,14 @@ OpeningPlan made_up_door(Random& random, double chance_of_open) {
     OpeningPlan door;
     door.kind = OpeningKind::door;
     // Leaves come in steps of 5 cm, a little more or less by the maker.
-    door.width = std::round(random.uniform(0.7, 1.1) / 0.05) * 0.05 + random.uniform(-0.01, 0.01);
+    const double nominal_width = std::round(random.uniform(0.7, 1.1) / 0.05) * 0.05;
+    door.width = nominal_width + random.uniform(-0.01, 0.01);
     door.height = random.uniform(1.95, 2.15);
     door.frame_width = random.uniform(0.04, 0.09);
     door.frame_protrusion = happens(random, 0.3) ? 0.0 : random.uniform(0.005, 0.03);
     door.recess = happens(random, 0.4) ? random.uniform(0.0, 0.01) : random.uniform(0.01, 0.12);
-    door.opens_into_room = happens(random, 0.7);
+    // Doors open into rooms, not into the way of people in the corridor.
+    door.opens_into_room = happens(random, 0.93);
     door.is_hinged_left = happens(random, 0.5);
     door.is_glazed = happens(random, 0.12);
     door.is_double = happens(random, 0.08);
@@ -59,13 +62,14 @@ OpeningPlan made_up_door(Random& random, double chance_of_open) {
 OpeningPlan made_up_window(Random& random, double ceiling) {
     OpeningPlan window;
     window.kind = OpeningKind::window;
-    window.width = random.uniform(0.5, 2.4);
+    // Narrow ones are rare.
+    window.width = happens(random, 0.15) ? random.uniform(0.5, 0.8) : random.uniform(0.8, 2.4);
     const bool is_french = happens(random, 0.1);
     window.sill = is_french ? random.uniform(0.0, 0.1) : random.uniform(0.75, 1.1);
     const double room_above = ceiling - window.sill - 0.15;
     window.height =
         is_french ? std::min(2.15, room_above) : std::min(random.uniform(0.6, 1.6), room_above);
-    window.frame_width = random.uniform(0.05, 0.11);
+    window.frame_width = random.uniform(0.05, std::min(0.11, 0.1 + 0.02 * (window.width - 0.5)));
     window.frame_protrusion = 0.0;
     window.recess = random.uniform(0.05, 0.2);
     // One sash is rarely wider than 1.3 m.
@@ -86,6 +90,16 @@ bool is_free(const Scenario& scenario, const WallFace& face, double along, doubl
                                    std::abs(offset.dot(face.along()) - along) <
                                        half_width + hole_half_width(other) + pier;
                         });
+}
+
+/// Height of the lower of the ceilings on both sides of a wall.
+double headroom(const Scenario& scenario, std::span<const WallFace> faces, std::size_t face,
+                const Vector2d& at) {
+    double height = scenario.rooms[faces[face].room].ceiling_height;
+    if (const std::optional<FarFace> far = find_far_face(faces, face, at)) {
+        height = std::min(height, scenario.rooms[faces[far->face].room].ceiling_height);
+    }
+    return height;
 }
 
 /// Sets the opening somewhere into a face between `low` and `high` of its length; false if there is
@@ -109,6 +123,8 @@ bool set_into_face(Scenario& scenario, std::span<const WallFace> faces, std::siz
         const auto num_behind = std::count(behind.begin(), behind.end(), true);
         if (num_behind != (needs_outdoors ? 0 : 3)) continue;
         if (!is_free(scenario, wall, along, half)) continue;
+        opening.height = std::min(opening.height, headroom(scenario, faces, face, at) -
+                                                      opening.sill - opening.frame_width - 0.05);
         opening.room = scenario.rooms[wall.room].name;
         opening.at = at;
         if (!needs_outdoors) {
@@ -122,19 +138,33 @@ bool set_into_face(Scenario& scenario, std::span<const WallFace> faces, std::siz
     return false;
 }
 
+/// Windows of one kind, on one or two walls of a room as a rule, until about a sixth of its floor
+/// is glass (building codes ask for an eighth or a tenth).
 void add_windows(Scenario& scenario, std::size_t room, Random& random) {
     const std::vector<WallFace> faces = wall_faces(scenario.rooms);
-    // One kind of window per room, as built.
-    const OpeningPlan type = made_up_window(random, scenario.rooms[room].ceiling_height);
+    const RoomPlan& plan = scenario.rooms[room];
+    const OpeningPlan type = made_up_window(random, plan.ceiling_height);
+    const bool is_minor = plan.use == "bath" || plan.use == "storage";
+    const double lot = random.uniform();
+    int num_walls = lot < 0.65 ? 1 : lot < 0.93 ? 2 : 3;
+    double wanted = signed_area(plan.outline) * random.uniform(0.1, 0.22);
+    std::vector<std::size_t> outer;
     for (std::size_t face = 0; face < faces.size(); ++face) {
-        if (faces[face].room != room) continue;
-        const double wish = faces[face].length() / random.uniform(2.0, 4.0);
-        const int count = happens(random, 0.25) ? 0 : static_cast<int>(std::ceil(wish));
-        for (int i = 0; i < count; ++i) {
+        if (faces[face].room == room) outer.push_back(face);
+    }
+    std::rotate(outer.begin(),
+                outer.begin() + random.below(static_cast<std::uint32_t>(outer.size())),
+                outer.end());
+    for (const std::size_t face : outer) {
+        bool is_used = false;
+        for (int i = 0; i < 6 && num_walls > 0 && wanted > 0.0; ++i) {
             OpeningPlan window = type;
             window.blind = happens(random, 0.5) ? type.blind : 0.0;
-            set_into_face(scenario, faces, face, window, random, true);
+            if (!set_into_face(scenario, faces, face, window, random, true)) break;
+            is_used = true;
+            wanted = is_minor ? 0.0 : wanted - window.width * window.height;
         }
+        if (is_used) --num_walls;
     }
 }
 
@@ -410,10 +440,10 @@ Scenario plan_building(SceneKind kind, std::uint64_t seed) {
     const double width = random.uniform(3.0, 7.0);
     const double depth = random.uniform(3.0, 6.0);
     constexpr std::array uses{"office", "living", "bedroom", "meeting", "storage"};
+    const char* use = pick(uses, random);
     switch (kind) {
         case SceneKind::room:
-            lay_out_room(scenario, pick(uses, random), rectangle(0.0, 0.0, width, depth), ceiling,
-                         random);
+            lay_out_room(scenario, use, rectangle(0.0, 0.0, width, depth), ceiling, random);
             break;
         case SceneKind::l_room:
             lay_out_room(scenario, pick(uses, random), l_shape(width + 2.0, depth + 2.0, random),

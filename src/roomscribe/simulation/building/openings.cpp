@@ -2,9 +2,12 @@
 #include "roomscribe/simulation/building/openings.hpp"
 
 #include <algorithm>
+#include <array>
+#include <utility>
 
 #include "roomscribe/core/random.hpp"
 #include "roomscribe/core/units.hpp"
+#include "roomscribe/simulation/handles.hpp"
 
 namespace roomscribe {
 namespace {
@@ -75,46 +78,26 @@ void add_frame_boxes(SimulatedWorld& world, std::uint32_t part, const Transform&
     bar(outer.x_high - width, outer.x_high, outer.z_low + width, outer.z_high - width);
 }
 
-/// Adds a lever or knob on one side of a leaf. `side` is +1 towards the room; `towards_hinge` is
-/// +1 or -1 along x.
-void add_door_handle(SimulatedWorld& world, const Transform& frame, const std::string& door,
-                     const Vector3d& spindle, double side, double towards_hinge, bool is_knob,
-                     Random& random) {
-    const double length = is_knob ? 0.054 : random.uniform(0.10, 0.14);
-    const double thickness = is_knob ? 0.054 : random.uniform(0.016, 0.022);
-    const double stand_off = is_knob ? 0.065 : random.uniform(0.045, 0.06);
-    const Vector3d out = side * Vector3d::UnitY();
-    const Vector3d grip = spindle + (stand_off - thickness / 2.0) * out +
-                          (is_knob ? 0.0 : towards_hinge * length / 2.0) * Vector3d::UnitX();
-    const std::array<Vector3d, 3> axes{frame.linear().col(0), frame.linear().col(2),
-                                       frame.linear() * out};
+/// What both sides of a door have.
+HandleStyle choose_door_handle(bool is_knob, Random& random) {
+    HandleStyle style;
+    style.shape = is_knob ? HandleShape::knob : HandleShape::lever;
+    style.hole_spacing = random.uniform(0.10, 0.14);
+    style.diameter = is_knob ? 0.054 : random.uniform(0.016, 0.022);
+    style.projection = is_knob ? 0.065 : random.uniform(0.045, 0.06);
+    return style;
+}
 
-    Component handle;
-    handle.label = Label::handle;
-    handle.kind = is_knob ? "knob" : "lever_handle";
-    handle.parent = door;
-    handle.box = OrientedBox{
-        .center = frame * Vector3d(grip.x(), spindle.y() + side * stand_off / 2.0, spindle.z()),
-        .axes = axes,
-        .size = {length, is_knob ? thickness : 0.05, stand_off}};
-    handle.grasp = Grasp{
-        .position = frame * grip, .axis = axes[1], .approach = -axes[2], .opening = thickness};
-    const std::uint32_t part =
-        add_part(world, add_component(world, std::move(handle)), Material::metal);
-
-    add_cylinder(world, part, frame * spindle, frame * Vector3d(spindle + 0.008 * out), 0.025);
-    if (is_knob) {
-        add_cylinder(world, part, frame * spindle, frame * grip, 0.012);
-        Transform at_grip = frame;
-        at_grip.translate(grip);
-        add_ellipsoid(world, part, at_grip, Vector3d::Constant(thickness / 2.0), 16);
-        return;
-    }
-    const Vector3d bend = spindle + (stand_off - thickness / 2.0) * out;
-    add_cylinder(world, part, frame * spindle, frame * bend, thickness / 2.0);
-    add_cylinder(world, part, frame * bend,
-                 frame * Vector3d(bend + towards_hinge * length * Vector3d::UnitX()),
-                 thickness / 2.0);
+/// The frame of a lever on a leaf: x towards the hinge, z out of the leaf. `side` is +1 towards the
+/// room; `towards_hinge` is +1 or -1 along x.
+Transform frame_of_lever(const Transform& leaf, const Vector3d& spindle, double side,
+                         double towards_hinge) {
+    Transform lever = Transform::Identity();
+    lever.linear().col(0) = towards_hinge * Vector3d::UnitX();
+    lever.linear().col(2) = side * Vector3d::UnitY();
+    lever.linear().col(1) = lever.linear().col(2).cross(lever.linear().col(0));
+    lever.translation() = spindle;
+    return leaf * lever;
 }
 
 struct Leaf {
@@ -158,12 +141,13 @@ void add_leaf(SimulatedWorld& world, const OpeningPlan& opening, const Transform
                 {area.x_high, y_high, area.z_high});
     }
     const double free_edge = leaf.hinge_side > 0.0 ? area.x_low + 0.06 : area.x_high - 0.06;
-    const bool is_knob = opening.style % 6 == 5;
+    const HandleStyle handle = choose_door_handle(opening.style % 6 == 5, random);
     const std::string id = world.scene.components[static_cast<std::size_t>(door)].id;
-    add_door_handle(world, frame, id, {free_edge, y_high, lever_height}, 1.0, leaf.hinge_side,
-                    is_knob, random);
-    add_door_handle(world, frame, id, {free_edge, leaf.y_low, lever_height}, -1.0, leaf.hinge_side,
-                    is_knob, random);
+    for (const auto& [y, side] : {std::pair{y_high, 1.0}, std::pair{leaf.y_low, -1.0}}) {
+        add_handle(world,
+                   frame_of_lever(frame, {free_edge, y, lever_height}, side, leaf.hinge_side),
+                   handle, id);
+    }
 }
 
 /// Casing on both faces, lining between them.
@@ -176,8 +160,8 @@ void add_door_frame(SimulatedWorld& world, const OpeningPlan& opening, const Ope
 
     Component frame;
     frame.label = Label::door_frame;
-    // Both casings of an inner wall are near this plane, and either may be what a scan saw.
-    frame.polygon = corners_at(site.world_from_site, hole, -std::min(site.thickness / 2.0, 0.1));
+    // Either casing of an inner wall may be what a scan saw, and both are near this plane.
+    frame.polygon = corners_at(site.world_from_site, hole, -std::min(site.thickness / 2.0, 0.12));
     const std::int32_t component = add_component(world, std::move(frame));
 
     const std::uint32_t casing = add_part(world, component, Material::paint);
@@ -303,9 +287,11 @@ void add_window(SimulatedWorld& world, const OpeningPlan& opening, const Opening
         add_part(world, wall, Material::paint, label_bit(Label::window_frame));
     add_tunnel(world, reveal, frame, hole, 0.0, -site.thickness);
     if (opening.sill > 0.3) {
-        const std::uint32_t board =
-            add_part(world, window_frame, Material::tile,
-                     static_cast<LabelSet>(label_bit(Label::wall) | label_bit(Label::unknown)));
+        Component sill;
+        sill.kind = "sill";
+        const std::uint32_t board = add_part(
+            world, add_component(world, std::move(sill)), Material::tile,
+            static_cast<LabelSet>(label_bit(Label::wall) | label_bit(Label::window_frame)));
         add_box(world, board, frame, {-half - 0.03, front + 0.001, opening.sill - 0.026},
                 {half + 0.03, random.uniform(0.03, 0.12), opening.sill + 0.004});
     }

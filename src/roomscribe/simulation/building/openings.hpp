@@ -3,9 +3,9 @@
 
 #include <cstdint>
 
+#include "roomscribe/simulation/building/wall_layout.hpp"
 #include "roomscribe/simulation/scenario.hpp"
 #include "roomscribe/simulation/simulated_world.hpp"
-#include "roomscribe/simulation/building/wall_layout.hpp"
 
 namespace roomscribe {
 

@@ -27,6 +27,18 @@ PointOnFace place_on_face(const WallFace& face, const Vector2d& point) {
     return {offset.dot(face.along()), offset.dot(face.inward())};
 }
 
+void check_sizes(const OpeningPlan& opening) {
+    const bool is_window = opening.kind == OpeningKind::window;
+    const double rim = is_window ? 2.0 * opening.frame_width : 0.0;
+    if (!(opening.width > rim && opening.height > rim && opening.sill >= 0.0 &&
+          opening.frame_width >= 0.0 && opening.frame_protrusion >= 0.0 && opening.recess >= 0.0)) {
+        throw InvalidArgument(
+            "opening",
+            fmt::format("{} x {} m in room \"{}\"", opening.width, opening.height, opening.room),
+            "sizes of 0 or more, wider and higher than the frame of a window");
+    }
+}
+
 }  // namespace
 
 std::vector<WallFace> wall_faces(std::span<const RoomPlan> rooms) {
@@ -59,12 +71,15 @@ std::optional<FarFace> find_far_face(std::span<const WallFace> faces, std::size_
 
 OpeningSite locate_opening(const OpeningPlan& opening, std::span<const RoomPlan> rooms,
                            std::span<const WallFace> faces, double outer_wall_thickness) {
+    check_sizes(opening);
     for (std::size_t i = 0; i < faces.size(); ++i) {
         if (rooms[faces[i].room].name != opening.room) continue;
         const PointOnFace place = place_on_face(faces[i], opening.at);
         const double half_width = hole_half_width(opening);
         if (std::abs(place.distance) > opening_tolerance || place.along < half_width ||
-            place.along > faces[i].length() - half_width) {
+            place.along > faces[i].length() - half_width ||
+            rooms[faces[i].room].floor_height + opening.sill + hole_height(opening) >
+                rooms[faces[i].room].ceiling_height) {
             continue;
         }
         const double floor = rooms[faces[i].room].floor_height;

@@ -47,7 +47,9 @@ struct OpeningSite {
     Transform world_from_site = Transform::Identity();
 };
 
-/// Throws InvalidArgument if the room is not known, or `at` is not within 5 cm of one of its faces.
+/// Throws InvalidArgument if a size is negative, the room is not known, `at` is not within 5 cm of
+/// one of its faces, or the hole would not lie wholly within that face. That it also lies within
+/// the face behind is up to the scenario.
 OpeningSite locate_opening(const OpeningPlan& opening, std::span<const RoomPlan> rooms,
                            std::span<const WallFace> faces, double outer_wall_thickness);
 

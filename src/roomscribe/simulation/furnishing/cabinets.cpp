@@ -167,8 +167,9 @@ void build_chest_of_drawers(ItemBuilder& builder) {
 
 void build_nightstand(ItemBuilder& builder) {
     const bool has_legs = builder.chance(0.5);
-    build_drawers(builder, choose_wood(builder), 2 + builder.choose(2), has_legs ? 0.15 : 0.04,
-                  has_legs);
+    const Material wood = choose_wood(builder);
+    const int rows = 2 + builder.choose(2);
+    build_drawers(builder, wood, rows, has_legs ? 0.15 : 0.04, has_legs);
 }
 
 void build_tv_unit(ItemBuilder& builder) {

@@ -91,10 +91,10 @@ void build_picture(ItemBuilder& builder) {
                     {builder.depth() / 2.0, builder.width() / 2.0, builder.height()});
         return;
     }
-    add_framed_panel(builder, frames[static_cast<std::size_t>(builder.choose(4))],
-                     builder.chance(0.3) ? Material::tile : Material::paper,
-                     std::min(builder.pick(0.015, 0.05), 0.2 * builder.width()),
-                     0.5 * builder.depth());
+    const Material frame = frames[static_cast<std::size_t>(builder.choose(4))];
+    const Material panel = builder.chance(0.3) ? Material::tile : Material::paper;
+    const double border = std::min(builder.pick(0.015, 0.05), 0.2 * builder.width());
+    add_framed_panel(builder, frame, panel, border, 0.5 * builder.depth());
 }
 
 void build_whiteboard(ItemBuilder& builder) {
@@ -114,9 +114,9 @@ void build_notice_board(ItemBuilder& builder) {
     const double h = builder.height() - 0.36;
     if (y < 0.05 || h < 0.05) return;
     for (int i = 0; i < 4; ++i) {
-        const Transform pose = moved_and_turned(
-            {panel + 0.0004 * (i + 1), builder.pick(-y, y), 0.04 + builder.pick(0.0, h)},
-            Vector3d::UnitX(), builder.pick(-0.1, 0.1));
+        const Vector3d at{panel + 0.0004 * (i + 1), builder.pick(-y, y),
+                          0.04 + builder.pick(0.0, h)};
+        const Transform pose = moved_and_turned(at, Vector3d::UnitX(), builder.pick(-0.1, 0.1));
         builder.quad(note,
                      {pose * Vector3d(0.0, -0.105, 0.0), pose * Vector3d(0.0, 0.105, 0.0),
                       pose * Vector3d(0.0, 0.105, 0.297), pose * Vector3d(0.0, -0.105, 0.297)});
@@ -124,8 +124,9 @@ void build_notice_board(ItemBuilder& builder) {
 }
 
 void build_mirror(ItemBuilder& builder) {
-    add_framed_panel(builder, builder.chance(0.5) ? Material::wood : Material::metal,
-                     Material::mirror, builder.pick(0.01, 0.05), 0.3 * builder.depth());
+    const Material frame = builder.chance(0.5) ? Material::wood : Material::metal;
+    const double border = builder.pick(0.01, 0.05);
+    add_framed_panel(builder, frame, Material::mirror, border, 0.3 * builder.depth());
 }
 
 void build_tv_screen(ItemBuilder& builder) {

@@ -82,8 +82,7 @@ bool touches(const WallFace& face, const Footprint& footprint, double margin) {
 }
 
 bool overlap(const Footprint& a, const Footprint& b, double margin) {
-    constexpr double touch = 0.0005;
-    if (a.low > b.high - touch || b.low > a.high - touch) return false;
+    if (a.low > b.high || b.low > a.high) return false;
     if ((a.center - b.center).norm() > a.half.norm() + b.half.norm() + margin) return false;
     return !is_apart(a, corners_of(b), margin) && !is_apart(b, corners_of(a), margin);
 }

@@ -3,8 +3,8 @@
 
 #include <Eigen/Geometry>
 
-#include "roomscribe/simulation/scenario.hpp"
 #include "roomscribe/simulation/building/wall_layout.hpp"
+#include "roomscribe/simulation/scenario.hpp"
 
 namespace roomscribe {
 
@@ -32,7 +32,7 @@ Footprint before_wall(const WallFace& wall, double low, double high, double dept
 /// True if a wall comes nearer than `margin`.
 bool touches(const WallFace& wall, const Footprint& footprint, double margin);
 
-/// True if they come nearer than `margin` sideways and share more than half a millimetre of height.
+/// True if they come nearer than `margin` sideways and share some height.
 bool overlap(const Footprint& a, const Footprint& b, double margin);
 
 }  // namespace roomscribe

@@ -150,7 +150,8 @@ void Furnisher::strew_on(const ItemPlan& host, std::initializer_list<std::string
         const double y = host.size.y() / 2.0 - reach;
         if (x < 0.0 || y < 0.0) continue;
         const double turn = reach < x ? pick(-40.0, 40.0) : pick(-4.0, 4.0);
-        put_on(host, item, pick(-x, x), pick(-y, y), turn);
+        const double forward = pick(-x, x);
+        put_on(host, item, forward, pick(-y, y), turn);
     }
 }
 

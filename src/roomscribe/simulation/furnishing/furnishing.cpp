@@ -204,8 +204,8 @@ ItemPlan resolve_item(const ItemPlan& item) {
     }
     // All are drawn, so that one size that is given does not change the others.
     Random random(item.style, 1);
-    const Eigen::Vector3d usual(kind.depth.draw(random), kind.width.draw(random),
-                                kind.height.draw(random));
+    const Eigen::Vector3d usual{kind.depth.draw(random), kind.width.draw(random),
+                                kind.height.draw(random)};
     const double usual_elevation = kind.elevation.draw(random);
     ItemPlan resolved = item;
     for (int axis = 0; axis < 3; ++axis) {

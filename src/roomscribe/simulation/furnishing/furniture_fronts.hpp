@@ -3,8 +3,8 @@
 
 #include <cstdint>
 
-#include "roomscribe/simulation/furnishing/handles.hpp"
 #include "roomscribe/simulation/furnishing/item_builder.hpp"
+#include "roomscribe/simulation/handles.hpp"
 
 namespace roomscribe {
 

@@ -12,24 +12,26 @@ void add_workplace_things(Furnisher& f, const ItemPlan& desk) {
     const double back = -desk.size.x() / 2.0;
     if (f.chance(0.75)) {
         const double y = f.pick(-0.2, 0.2);
-        if (f.put_on(desk, f.make("monitor"), back + 0.16, y, f.pick(-8.0, 8.0))) {
-            f.put_on(desk, f.make("keyboard"), back + 0.42, y, f.pick(-5.0, 5.0));
+        const ItemPlan monitor = f.make("monitor");
+        if (f.put_on(desk, monitor, back + 0.16, y, f.pick(-8.0, 8.0))) {
+            const ItemPlan keyboard = f.make("keyboard");
+            f.put_on(desk, keyboard, back + 0.42, y, f.pick(-5.0, 5.0));
         }
         if (desk.size.y() > 1.5 && f.chance(0.4)) {
-            f.put_on(desk, f.make("monitor"), back + 0.18, y + (y > 0.0 ? -0.7 : 0.7),
-                     f.pick(-15.0, 15.0));
+            const ItemPlan second = f.make("monitor");
+            f.put_on(desk, second, back + 0.18, y + (y > 0.0 ? -0.7 : 0.7), f.pick(-15.0, 15.0));
         }
     } else {
-        f.put_on(desk, f.make("laptop"), 0.0, f.pick(-0.2, 0.2), f.pick(-10.0, 10.0));
+        const ItemPlan laptop = f.make("laptop");
+        const double y = f.pick(-0.2, 0.2);
+        f.put_on(desk, laptop, 0.0, y, f.pick(-10.0, 10.0));
     }
     f.strew_on(desk, {"papers", "papers", "bottle", "books", "desk_lamp"}, f.count(0, 4));
     const ItemPlan chair = f.make(f.chance(0.8) ? "office_chair" : "chair");
     for (int attempt = 0; attempt < 5; ++attempt) {
         const double x = desk.size.x() / 2.0 + chair.size.x() / 2.0 + f.pick(-0.3, 0.2);
-        if (f.place_by(desk, chair, x, f.pick(-0.25, 0.25), 180.0 + f.pick(-50.0, 50.0),
-                       anywhere)) {
-            break;
-        }
+        const double y = f.pick(-0.25, 0.25);
+        if (f.place_by(desk, chair, x, y, 180.0 + f.pick(-50.0, 50.0), anywhere)) break;
     }
 }
 

@@ -85,8 +85,8 @@ void add_building_parts(Furnisher& f, std::string_view use) {
     }
     if (f.chance(0.12)) add_soffit(f);
     if (f.chance(0.15)) {
-        f.place_along_wall(f.make("pipe", {0.0, 0.0, room_height(f.floor().room()) - seam}), {},
-                           f.pick(0.01, 0.03));
+        const ItemPlan pipe = f.make("pipe", {0.0, 0.0, room_height(f.floor().room()) - seam});
+        f.place_along_wall(pipe, {}, f.pick(0.01, 0.03));
     }
 }
 
@@ -126,9 +126,9 @@ void add_plates(Furnisher& f) {
     for (const OpeningInRoom& door : openings) {
         if (door.kind != OpeningKind::door || !f.chance(0.8)) continue;
         const double side = door.is_latch_at_start ? -1.0 : 1.0;
-        f.place_at_wall(f.make("switch_plate"), door.wall,
-                        door.along + side * (door.half_width + f.pick(0.13, 0.2)), 0.002,
-                        {.avoids_doors = false});
+        const ItemPlan plate = f.make("switch_plate");
+        const double along = door.along + side * (door.half_width + f.pick(0.13, 0.2));
+        f.place_at_wall(plate, door.wall, along, 0.002, {.avoids_doors = false});
     }
     for (int i = f.count(1, 5); i > 0; --i)
         f.place_along_wall(f.make("socket_plate"), {}, 0.002);

@@ -59,8 +59,8 @@ void furnish_kitchen(Furnisher& f, double density) {
     if (f.chance(0.3 + 0.4 * density)) {
         if (const auto run = add_kitchen_run(f, 2.1)) furnish_run(f, *run, density);
     }
-    const ItemPlan table =
-        f.make(f.chance(0.3) ? "round_table" : "table", {f.pick(0.7, 0.9), f.pick(0.9, 1.4), 0.0});
+    const char* kind = f.chance(0.3) ? "round_table" : "table";
+    const ItemPlan table = f.make(kind, {f.pick(0.7, 0.9), f.pick(0.9, 1.4), 0.0});
     auto placed = f.place_in_the_middle(table, anywhere);
     if (!placed) placed = f.place_along_wall(table, anywhere);
     if (placed) {
@@ -80,22 +80,25 @@ void furnish_living(Furnisher& f, double density) {
     if (sofa) {
         if (f.chance(0.6)) f.place_by(*sofa, f.make("rug"), 1.3, 0.0, 0.0);
         const ItemPlan table = f.make("coffee_table");
-        if (const auto low = f.place_by(*sofa, table,
-                                        (sofa->size.x() + table.size.x()) / 2.0 + f.pick(0.32, 0.5),
-                                        f.pick(-0.2, 0.2), f.pick(-4.0, 4.0), anywhere)) {
+        const double x = (sofa->size.x() + table.size.x()) / 2.0 + f.pick(0.32, 0.5);
+        const double y = f.pick(-0.2, 0.2);
+        if (const auto low = f.place_by(*sofa, table, x, y, f.pick(-4.0, 4.0), anywhere)) {
             f.strew_on(*low, {"papers", "books", "bottle", "dishes"}, f.count(0, 3));
         }
         if (f.chance(0.6)) {
             const double side = f.chance(0.5) ? 1.0 : -1.0;
-            f.place_by(*sofa, f.make("armchair"), f.pick(1.2, 1.8),
-                       side * (sofa->size.y() / 2.0 + f.pick(0.2, 0.6)),
-                       -side * f.pick(60.0, 130.0), anywhere);
+            const ItemPlan armchair = f.make("armchair");
+            const double ahead = f.pick(1.2, 1.8);
+            const double aside = side * (sofa->size.y() / 2.0 + f.pick(0.2, 0.6));
+            f.place_by(*sofa, armchair, ahead, aside, -side * f.pick(60.0, 130.0), anywhere);
         }
     }
     if (const auto unit = f.place_along_wall(f.make("tv_unit"), {.front_space = 0.5})) {
         if (f.chance(0.8)) {
             ItemPlan screen = f.make("tv_screen");
-            f.put_on(*unit, screen, f.pick(-0.08, 0.05), f.pick(-0.1, 0.1), f.pick(-4.0, 4.0));
+            const double x = f.pick(-0.08, 0.05);
+            const double y = f.pick(-0.1, 0.1);
+            f.put_on(*unit, screen, x, y, f.pick(-4.0, 4.0));
         }
     }
     const int storage = std::clamp(static_cast<int>(f.floor().area() * density / 7.0), 0, 4);

@@ -144,8 +144,9 @@ void build_kitchen_base(ItemBuilder& builder) {
         bay.low.x() = at;
         bay.high.x() = at += units[i];
         places.push_back((bay.low.x() + bay.high.x()) / 2.0);
-        add_bay(builder, bay, i == hob_unit ? BayContent::oven : base_content(builder, units[i]),
-                style, 2 + builder.choose(3));
+        const BayContent content =
+            i == hob_unit ? BayContent::oven : base_content(builder, units[i]);
+        add_bay(builder, bay, content, style, 2 + builder.choose(3));
     }
     builder.top(builder.chance(0.5) ? Material::tile : Material::wood, {-x, -y, top - worktop},
                 {x, y, top});

@@ -8,10 +8,10 @@
 
 #include <Eigen/Geometry>
 
-#include "roomscribe/simulation/furnishing/footprint.hpp"
-#include "roomscribe/simulation/scenario.hpp"
-#include "roomscribe/simulation/furnishing/walking_grid.hpp"
 #include "roomscribe/simulation/building/wall_layout.hpp"
+#include "roomscribe/simulation/furnishing/footprint.hpp"
+#include "roomscribe/simulation/furnishing/walking_grid.hpp"
+#include "roomscribe/simulation/scenario.hpp"
 
 namespace roomscribe {
 

@@ -56,7 +56,7 @@ void furnish_corridor(Furnisher& f, double density) {
     if (f.chance(0.6)) f.hang(f.make("fire_extinguisher"));
     if (f.chance(0.4)) f.hang(f.make("notice_board"));
     if (f.chance(0.3)) f.place_along_wall(f.make("bin"), anywhere);
-    for (int i = 0; i < f.count(0, 3); ++i)
+    for (int i = f.count(0, 3); i > 0; --i)
         f.hang(f.make("picture"));
 }
 
@@ -67,7 +67,7 @@ void furnish_storage(Furnisher& f, double density) {
                                             "drawer_unit"})),
                            with_doors);
     }
-    for (int i = 0; i < f.count(2, 5); ++i) {
+    for (int i = f.count(2, 5); i > 0; --i) {
         const auto below = f.chance(0.6) ? f.place_along_wall(f.make("box"), anywhere)
                                          : f.place_freely(f.make("box"), anywhere);
         if (below && f.chance(0.4)) f.put_on(*below, f.make("box", {0.2, 0.25, 0.0}), 0.0, 0.0);
@@ -79,17 +79,18 @@ void furnish_lobby(Furnisher& f, double density) {
         const auto counter = f.place_in_the_middle(f.make("counter"), {.front_space = 0.9});
         if (counter) {
             const ItemPlan chair = f.make("office_chair");
-            f.place_by(*counter, chair, -counter->size.x() / 2.0 - 0.5, f.pick(-0.4, 0.4),
-                       f.pick(-30.0, 30.0), anywhere);
+            const double x = -counter->size.x() / 2.0 - 0.5;
+            const double y = f.pick(-0.4, 0.4);
+            f.place_by(*counter, chair, x, y, f.pick(-30.0, 30.0), anywhere);
         }
     }
-    for (int i = 0; i < f.count(1, 3); ++i) {
+    for (int i = f.count(1, 3); i > 0; --i) {
         f.place_along_wall(f.make(f.one_of({"sofa", "armchair", "bench"})),
                            {.front_space = 0.4, .avoids_windows = false});
     }
     if (f.chance(0.6)) f.place_freely(f.make("coffee_table"), anywhere);
     if (f.chance(density)) f.place_along_wall(f.make("cabinet"), with_doors);
-    for (int i = 0; i < f.count(1, 3); ++i)
+    for (int i = f.count(1, 3); i > 0; --i)
         f.place_along_wall(f.make("plant"), anywhere, 0.05);
 }
 

@@ -123,13 +123,14 @@ void build_desk(ItemBuilder& builder) {
     const Material top = choose_top(builder);
     const double plate = builder.pick(0.022, 0.03);
     const double below = builder.height() - plate;
+    double leg = 0.0;
     switch (builder.choose(3)) {
         case 0:
             add_t_legs(builder, below);
             break;
         case 1:
-            add_legs(builder, Material::metal, builder.pick(0.04, 0.06), 0.01, below,
-                     builder.chance(0.3));
+            leg = builder.pick(0.04, 0.06);
+            add_legs(builder, Material::metal, leg, 0.01, below, builder.chance(0.3));
             break;
         default:
             add_side_panels(builder, top, below);

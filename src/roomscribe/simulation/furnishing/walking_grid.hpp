@@ -8,9 +8,9 @@
 
 #include <Eigen/Core>
 
+#include "roomscribe/simulation/building/wall_layout.hpp"
 #include "roomscribe/simulation/furnishing/footprint.hpp"
 #include "roomscribe/simulation/scenario.hpp"
-#include "roomscribe/simulation/building/wall_layout.hpp"
 
 namespace roomscribe {
 

@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 
+#include <Eigen/Eigenvalues>
 #include <fmt/format.h>
 
 #include "roomscribe/core/error.hpp"
@@ -21,6 +22,7 @@ constexpr double candidate_step = 0.2;
 constexpr double wall_clearance = 0.9;   ///< people keep off what a scanner is too near to see
 constexpr double item_clearance = 0.35;  ///< of what the scanner looks over
 constexpr double eye_height = 1.2;
+constexpr double least_clearance = 0.7;  ///< nearer, a terrestrial scanner is blind
 constexpr double passable_height = 2.0;  ///< what hangs higher does not bar the way
 
 /// How a scanner is carried.
@@ -29,22 +31,23 @@ struct Carrier {
     double highest = 1.6;
     double max_pitch = 1.5;  ///< degrees off level, either way
     double mean_pitch = 0.0;
-    double turn = 0.0;  ///< degrees from scan to scan; 0: it sees all around
-    double step = 2.5;  ///< m from scan to scan
+    double pitch_swing = 0.0;  ///< degrees: up and down again, as a hand does
+    double turn = 0.0;         ///< degrees from scan to scan; 0: it sees all around
+    double step = 2.5;         ///< m from scan to scan
 };
 
 Carrier carrier_of(ScannerKind scanner) {
     switch (scanner) {
         case ScannerKind::sick_lms200:
-            return {0.5, 0.7, 1.0, 0.0, 75.0, 1.0};
+            return {0.5, 0.7, 1.0, 0.0, 0.0, 75.0, 1.2};
         case ScannerKind::hokuyo_utm30lx:
-            return {1.0, 1.3, 1.0, 0.0, 95.0, 1.0};
+            return {1.0, 1.3, 1.0, 0.0, 0.0, 95.0, 1.5};
         case ScannerKind::terrestrial:
-            return {1.35, 1.75, 0.6, 0.0, 0.0, 2.8};
+            return {1.35, 1.75, 0.6, 0.0, 0.0, 0.0, 2.8};
         case ScannerKind::structured_light:
-            return {1.2, 1.6, 6.0, 8.0, 20.0, 0.25};
+            return {1.2, 1.6, 4.0, 8.0, 22.0, 20.0, 0.3};
         case ScannerKind::spinning_lidar:
-            return {0.5, 1.5, 3.0, 0.0, 0.0, 1.5};
+            return {0.5, 1.5, 3.0, 0.0, 0.0, 0.0, 1.5};
     }
     return {};
 }
@@ -65,6 +68,36 @@ double distance_to_outline(const RoomPlan& room, const Vector2d& point) {
     return nearest;
 }
 
+/// Where the leaves of doors stand that are not closed.
+struct LeafSegment {
+    Vector2d hinge;
+    Vector2d tip;
+};
+
+std::vector<LeafSegment> open_leaves(const Scenario& scenario) {
+    const std::vector<WallFace> faces = wall_faces(scenario.rooms);
+    std::vector<LeafSegment> leaves;
+    for (const OpeningPlan& opening : scenario.openings) {
+        if (opening.kind != OpeningKind::door || opening.leaf == LeafState::closed) continue;
+        const OpeningSite site =
+            locate_opening(opening, scenario.rooms, faces, scenario.outer_wall_thickness);
+        const double swing = opening.opens_into_room ? 1.0 : -1.0;
+        const double length = opening.is_double ? opening.width / 2.0 : opening.width;
+        const double y =
+            opening.opens_into_room ? -opening.recess : -site.thickness + opening.recess;
+        for (const double side : {-1.0, 1.0}) {
+            if (!opening.is_double && (side > 0.0) != opening.is_hinged_left) continue;
+            const double angle = radians(opening.leaf_angle);
+            const Eigen::Vector3d hinge(side * opening.width / 2.0, y, 0.0);
+            const Eigen::Vector3d along(-side * std::cos(angle), swing * std::sin(angle), 0.0);
+            const Eigen::Vector3d tip = hinge + length * along;
+            leaves.push_back(
+                {(site.world_from_site * hinge).head<2>(), (site.world_from_site * tip).head<2>()});
+        }
+    }
+    return leaves;
+}
+
 /// Distance of a point to an item's footprint; 0 inside.
 double distance_to_item(const ItemPlan& item, const Vector2d& point) {
     const double turn = radians(item.turn);
@@ -76,46 +109,59 @@ double distance_to_item(const ItemPlan& item, const Vector2d& point) {
     return std::hypot(x, y);
 }
 
-bool is_free(const Scenario& scenario, const RoomPlan& room, const Vector2d& point,
-             double share_of_clearance) {
+bool is_free(const Scenario& scenario, std::span<const LeafSegment> leaves, const RoomPlan& room,
+             const Vector2d& point, double share_of_clearance) {
     if (!contains(room.outline, point) ||
         distance_to_outline(room, point) < share_of_clearance * wall_clearance) {
         return false;
     }
+    const double tall_clearance = std::max(share_of_clearance * wall_clearance, least_clearance);
     const auto bars = [&](const ItemPlan& item) {
         if (item.elevation >= room.floor_height + passable_height) return false;
         const bool is_tall = item.elevation + item.size.z() > room.floor_height + eye_height;
         return distance_to_item(item, point) <
-               share_of_clearance * (is_tall ? wall_clearance : item_clearance);
+               (is_tall ? tall_clearance : share_of_clearance * item_clearance);
     };
-    // Nobody stands in a doorway, where a leaf may swing.
-    const auto is_doorway = [&](const OpeningPlan& opening) {
-        return opening.kind == OpeningKind::door &&
-               (opening.at - point).norm() < share_of_clearance * opening.width;
+    const auto stands_in_the_way = [&](const LeafSegment& leaf) {
+        return distance_to_segment(point, leaf.hinge, leaf.tip) < tall_clearance;
     };
     return std::none_of(scenario.items.begin(), scenario.items.end(), bars) &&
-           std::none_of(scenario.openings.begin(), scenario.openings.end(), is_doorway);
+           std::none_of(leaves.begin(), leaves.end(), stands_in_the_way);
 }
 
-std::vector<Vector2d> free_places(const Scenario& scenario, const RoomPlan& room) {
+double widest_distance(const std::vector<Vector2d>& places) {
+    double widest = 0.0;
+    for (const Vector2d& place : places)
+        widest = std::max(widest, (place - places.front()).norm());
+    return widest;
+}
+
+/// A crowded room leaves less than one would wish: then nearer to walls and things, before all
+/// stations stand on one spot.
+std::vector<Vector2d> free_places(const Scenario& scenario, const RoomPlan& room,
+                                  double wanted_width) {
+    const std::vector<LeafSegment> leaves = open_leaves(scenario);
     Vector2d low = room.outline.front();
     Vector2d high = low;
     for (const Vector2d& corner : room.outline) {
         low = low.cwiseMin(corner);
         high = high.cwiseMax(corner);
     }
-    // A crowded room leaves less than one would wish.
+    std::vector<Vector2d> places;
     for (const double share : {1.0, 0.7, 0.45, 0.3}) {
-        std::vector<Vector2d> places;
+        places.clear();
         for (double x = low.x() + 0.1; x < high.x(); x += candidate_step) {
             for (double y = low.y() + 0.1; y < high.y(); y += candidate_step) {
-                if (is_free(scenario, room, {x, y}, share)) places.emplace_back(x, y);
+                if (is_free(scenario, leaves, room, {x, y}, share)) places.emplace_back(x, y);
             }
         }
-        if (!places.empty()) return places;
+        if (!places.empty() && widest_distance(places) >= wanted_width) return places;
     }
-    throw InvalidArgument(fmt::format("items in room \"{}\"", room.name), "so many",
-                          "some free floor for a scanner");
+    if (places.empty()) {
+        throw InvalidArgument(fmt::format("items in room \"{}\"", room.name), "so many",
+                              "some free floor for a scanner");
+    }
+    return places;
 }
 
 Vector2d centroid(const std::vector<Vector2d>& points) {
@@ -156,7 +202,8 @@ void add_surround_stations(std::vector<Station>& stations, const RoomPlan& room,
             double nearest = std::numeric_limits<double>::infinity();
             for (const Vector2d& other : chosen)
                 nearest = std::min(nearest, (candidate - other).norm());
-            return std::abs(nearest - wish);
+            // Two scans from one spot tell nothing that one does not.
+            return std::abs(nearest - wish) + (nearest < 0.5 ? carrier.step : 0.0);
         });
         chosen.push_back(place);
     }
@@ -169,22 +216,39 @@ void add_surround_stations(std::vector<Station>& stations, const RoomPlan& room,
     }
 }
 
-/// Back from what it looks at, near the station before.
+/// Half of the way through the longer side of the free floor.
+Vector2d long_way(const std::vector<Vector2d>& places, const Vector2d& middle) {
+    Eigen::Matrix2d spread = Eigen::Matrix2d::Zero();
+    for (const Vector2d& place : places)
+        spread += (place - middle) * (place - middle).transpose();
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(spread);
+    const double deviation =
+        std::sqrt(solver.eigenvalues()(1) / static_cast<double>(places.size()));
+    // An even spread over a length has a deviation of length / sqrt(12).
+    return 0.35 * std::sqrt(12.0) * deviation * solver.eigenvectors().col(1);
+}
+
+/// Through the room, turning all the while, back from what it looks at.
 void add_turning_stations(std::vector<Station>& stations, const RoomPlan& room,
                           const std::vector<Vector2d>& places, int count, const Carrier& carrier,
                           Random& random) {
+    constexpr double frames_per_swing = 6.0;
     const Vector2d middle = centroid(places);
+    const Vector2d way = long_way(places, middle);
     double heading = random.uniform(-180.0, 180.0);
-    Vector2d last = middle;
+    Vector2d last = count > 1 ? Vector2d(middle - way) : middle;
     for (int i = 0; i < count; ++i) {
         const Vector2d look(std::cos(radians(heading)), std::sin(radians(heading)));
-        const double wish = carrier.step * random.uniform(0.5, 1.0);
-        const Vector2d target = middle - 1.5 * wish * look;
+        const double walked = count > 1 ? 2.0 * i / (count - 1.0) - 1.0 : 0.0;
+        const double back = std::min(1.0, carrier.step) * random.uniform(0.3, 0.7);
+        const Vector2d target = middle + walked * way - back * look;
         const Vector2d place = best_place(places, [&](const Vector2d& candidate) {
             const double too_far = std::max(0.0, (candidate - last).norm() - 2.0 * carrier.step);
             return (candidate - target).norm() + too_far;
         });
         stations.push_back(station_at(place, room.floor_height, heading, carrier, random));
+        stations.back().pitch +=
+            carrier.pitch_swing * std::sin(2.0 * std::numbers::pi * i / frames_per_swing);
         heading += carrier.turn * random.uniform(0.85, 1.15);
         last = place;
     }
@@ -198,7 +262,8 @@ std::vector<Station> choose_stations(const Scenario& scenario, std::span<const s
     std::vector<Station> stations;
     for (const std::size_t index : rooms) {
         const RoomPlan& room = scenario.rooms[index];
-        const std::vector<Vector2d> places = free_places(scenario, room);
+        const std::vector<Vector2d> places =
+            free_places(scenario, room, per_room > 1 ? 0.6 * carrier.step : 0.0);
         if (carrier.turn > 0.0) {
             add_turning_stations(stations, room, places, per_room, carrier, random);
             continue;

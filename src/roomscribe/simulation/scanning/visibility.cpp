@@ -6,6 +6,8 @@
 #include <cmath>
 #include <map>
 #include <string>
+#include <string_view>
+#include <unordered_map>
 #include <vector>
 
 #include <fmt/format.h>
@@ -201,6 +203,25 @@ class Visibility {
     std::vector<Viewpoint> viewpoints_;
 };
 
+/// Points on its faces and handles are points on a piece of furniture.
+std::vector<std::size_t> points_with_parts(const Scene& scene,
+                                           std::span<const std::size_t> points) {
+    std::unordered_map<std::string_view, std::size_t> furniture;
+    for (std::size_t i = 0; i < scene.components.size(); ++i) {
+        const Component& component = scene.components[i];
+        if (component.label == Label::furniture) furniture.emplace(component.id, i);
+    }
+    std::vector<std::size_t> sums(points.begin(), points.end());
+    for (std::size_t i = 0; i < scene.components.size(); ++i) {
+        auto whole = furniture.find(scene.components[i].parent);
+        while (whole != furniture.end()) {
+            sums[whole->second] += points[i];
+            whole = furniture.find(scene.components[whole->second].parent);
+        }
+    }
+    return sums;
+}
+
 }  // namespace
 
 void measure_visibility(Scene& scene, const RayCaster& caster, ScannerKind scanner,
@@ -213,11 +234,12 @@ void measure_visibility(Scene& scene, const RayCaster& caster, ScannerKind scann
             fmt::format("{} each, as many as the caster's world has components", count));
     }
     const Visibility visibility(caster, scanner, coarseness, stations);
+    const std::vector<std::size_t> points_of_whole = points_with_parts(scene, points);
     parallel_for(context, count, 8, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             double share = visibility.share(i);
             if (!is_opening(scene.components[i]))
-                share *= std::min(1.0, static_cast<double>(points[i]) / enough_points);
+                share *= std::min(1.0, static_cast<double>(points_of_whole[i]) / enough_points);
             scene.components[i].visible = share;
         }
     });

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "roomscribe/simulation/furnishing/handles.hpp"
+#include "roomscribe/simulation/handles.hpp"
 
 #include <algorithm>
 #include <array>
