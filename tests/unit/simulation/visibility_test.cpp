@@ -132,11 +132,12 @@ TEST(Visibility, OfAFrameIsThatOfItsBetterSide) {
     EXPECT_EQ(shares(world).front(), 1.0);
 }
 
-TEST(Visibility, IsScaledDownBelowTenPoints) {
+TEST(Visibility, IsBelowWhatCountsWithFewerThanTenPoints) {
     SimulatedWorld world;
     test::add_screen(world, 3.0, Material::paint, 1.0);
-    EXPECT_NEAR(shares(world, {{}}, 4).front(), 0.4, 1e-12);
-    EXPECT_EQ(shares(world, {{}}, 10).front(), 1.0);
+    EXPECT_NEAR(shares(world, {{}}, 4).front(), 0.12, 1e-12);
+    EXPECT_NEAR(shares(world, {{}}, 10).front(), 0.3, 1e-12);
+    EXPECT_EQ(shares(world, {{}}, 40).front(), 1.0);
 }
 
 TEST(Visibility, WantsAPointCountForEveryComponent) {

@@ -180,7 +180,7 @@ void add_odds_and_ends(Furnisher& f, std::string_view use, double density) {
     const Demands anywhere{.avoids_windows = false};
     for (int i = is_bare ? 0 : f.count(0, 2); i > 0; --i)
         f.place_along_wall(f.make("plant"), anywhere, 0.05);
-    for (int i = f.count(0, 1 + static_cast<int>(area * density / 6.0)); i > 0; --i) {
+    for (int i = f.count(0, 1 + static_cast<int>(area * (0.3 + density) / 3.0)); i > 0; --i) {
         const ItemPlan thing = f.make(f.one_of({"box", "bag", "ball", "bin", "bag", "stool"}));
         if (f.chance(0.6)) {
             f.place_along_wall(thing, anywhere);
@@ -210,8 +210,11 @@ std::vector<ItemPlan> furnish_room(const RoomPlan& room, std::span<const Opening
         floor.place(item, {.is_checked = false});
     Furnisher furnisher(floor, random);
     add_building_parts(furnisher, room.use);
-    add_to_windows(furnisher, room.use);
+    // Where there is a kitchen, radiators go where its units leave room.
+    const bool is_kitchen = room.use == "kitchen";
+    if (!is_kitchen) add_to_windows(furnisher, room.use);
     furnish_by_use(furnisher, room.use, density);
+    if (is_kitchen) add_to_windows(furnisher, room.use);
     add_plates(furnisher);
     add_lamps(furnisher, room.use);
     add_odds_and_ends(furnisher, room.use, density);

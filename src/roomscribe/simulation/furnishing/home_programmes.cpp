@@ -39,7 +39,7 @@ void furnish_run(Furnisher& f, const ItemPlan& run, double density) {
             has_tall = true;
         }
     }
-    if (!has_tall && f.chance(0.8)) f.place_along_wall(f.make("fridge"), with_doors);
+    if (!has_tall) f.place_along_wall(f.make("fridge"), with_doors);
     ItemPlan upper = f.make_of_style("wall_unit", run.style);
     for (double length = run.size.y(); length > 0.55 && f.chance(0.97); length -= 0.3) {
         upper.size.y() = length;
@@ -101,7 +101,8 @@ void furnish_living(Furnisher& f, double density) {
             f.put_on(*unit, screen, x, y, f.pick(-4.0, 4.0));
         }
     }
-    const int storage = std::clamp(static_cast<int>(f.floor().area() * density / 7.0), 0, 4);
+    const int storage =
+        std::clamp(static_cast<int>(f.floor().area() * (0.3 + density) / 7.0), 0, 5);
     for (int i = 0; i < storage; ++i)
         f.place_along_wall(f.make(f.one_of({"shelf", "cabinet", "chest_of_drawers"})), with_doors);
     if (f.floor().area() > 18.0 && f.chance(0.6)) {
@@ -126,7 +127,9 @@ void furnish_bedroom(Furnisher& f, double density) {
             if (placed) f.strew_on(*placed, {"books", "bottle", "desk_lamp"}, f.count(0, 2));
         }
     }
-    f.place_along_wall(f.make("wardrobe"), with_doors);
+    const int wardrobes = std::clamp(static_cast<int>(f.floor().area() / 12.0), 1, 3);
+    for (int i = 0; i < wardrobes; ++i)
+        f.place_along_wall(f.make("wardrobe"), with_doors);
     if (f.chance(0.3 + 0.5 * density)) {
         if (const auto chest = f.place_along_wall(f.make("chest_of_drawers"), with_doors)) {
             f.strew_on(*chest, {"books", "bottle", "desk_lamp", "box"}, f.count(0, 3));

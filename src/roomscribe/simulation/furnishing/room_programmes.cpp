@@ -11,10 +11,10 @@ using Eigen::Vector3d;
 
 void furnish_office(Furnisher& f, double density) {
     const double area = f.floor().area();
-    const int wanted = std::clamp(static_cast<int>(area * (0.4 + density) / 8.0), 1, 8);
+    const int wanted = std::clamp(static_cast<int>(area * (0.7 + density) / 8.0), 1, 10);
     for (int i = 0; i < wanted; ++i)
         add_desk(f);
-    const int storage = std::clamp(static_cast<int>(area * density / 5.0), 1, 6);
+    const int storage = std::clamp(static_cast<int>(area * (0.3 + density) / 5.0), 1, 8);
     for (int i = 0; i < storage; ++i) {
         f.place_along_wall(f.make(f.one_of({"office_cupboard", "office_cupboard", "shelf", "shelf",
                                             "cabinet", "drawer_unit", "drawer_unit"})),

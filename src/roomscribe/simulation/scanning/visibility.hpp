@@ -21,8 +21,8 @@ namespace roomscribe {
 /// return little though they are seen; on the surface of everything else, where a station behind
 /// a wall does not see it, because the wall's other face is between. Of frames the side that is
 /// seen better counts. Where furniture touches something it is not meant to be seen and not
-/// sampled. A component with fewer than 10 points, except doors and windows, has its share scaled
-/// by points / 10.
+/// sampled. Of a component with fewer than 33 points, except doors and windows, the share is scaled
+/// by points / 33: with fewer than 10 it is below the 0.3 from which on misses count.
 void measure_visibility(Scene& scene, const RayCaster& caster, ScannerKind scanner,
                         double coarseness, std::span<const Station> stations,
                         std::span<const std::size_t> points, const Context& context = {});
