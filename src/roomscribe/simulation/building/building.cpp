@@ -119,6 +119,7 @@ class WallSheet {
 
 std::vector<Vector3d> lifted(const std::vector<Vector2d>& outline, double z) {
     std::vector<Vector3d> corners;
+    corners.reserve(outline.size());
     for (const Vector2d& corner : outline)
         corners.emplace_back(corner.x(), corner.y(), z);
     return corners;
