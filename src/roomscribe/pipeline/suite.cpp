@@ -68,11 +68,11 @@ std::vector<SuiteScene> register_scenes() {
          {sick_lms200, hokuyo_utm30lx, terrestrial, structured_light, spinning_lidar}) {
         const bool is_frame = scanner == structured_light;
         for (const SceneKind kind : {room, l_room, slanted, office, kitchen, corridor}) {
-            scenes.push_back({kind, seed++, options_of(scanner, is_frame ? 12 : 4)});
+            scenes.push_back({kind, seed++, options_of(scanner, is_frame ? 8 : 4)});
         }
-        scenes.push_back({office, seed++, options_of(scanner, is_frame ? 18 : 3)});
+        scenes.push_back({office, seed++, options_of(scanner, is_frame ? 12 : 3)});
         scenes.push_back(
-            {is_frame ? kitchen : flat, seed++, options_of(scanner, is_frame ? 18 : 2)});
+            {is_frame ? kitchen : flat, seed++, options_of(scanner, is_frame ? 12 : 2)});
     }
     return scenes;
 }

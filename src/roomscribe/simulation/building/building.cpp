@@ -309,16 +309,11 @@ void add_outer_faces(SimulatedWorld& world, const Scenario& scenario,
 
 /// A street: ground, houses some way off, trees.
 void add_outdoors(SimulatedWorld& world, const Scenario& scenario, Random& random) {
-    Vector2d low = scenario.rooms.front().outline.front();
-    Vector2d high = low;
-    for (const RoomPlan& room : scenario.rooms) {
-        for (const Vector2d& corner : room.outline) {
-            low = low.cwiseMin(corner);
-            high = high.cwiseMax(corner);
-        }
-    }
-    const Vector2d middle = (low + high) / 2.0;
-    const double reach = (high - low).norm() / 2.0;
+    Eigen::AlignedBox2d bounds;
+    for (const RoomPlan& room : scenario.rooms)
+        bounds.extend(bounds_of(room.outline));
+    const Vector2d middle = bounds.center();
+    const double reach = bounds.diagonal().norm() / 2.0;
     const double ground = -scenario.storey_height;
     const std::uint32_t earth = add_clutter_part(world, Material::carpet);
     const std::uint32_t houses = add_clutter_part(world, Material::facade);

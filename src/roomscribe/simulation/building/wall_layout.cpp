@@ -114,6 +114,19 @@ double hole_height(const OpeningPlan& opening) {
     return opening.height + (is_framed_outside ? opening.frame_width : 0.0);
 }
 
+Eigen::AlignedBox2d bounds_of(std::span<const Vector2d> outline) {
+    Eigen::AlignedBox2d bounds;
+    for (const Vector2d& corner : outline)
+        bounds.extend(corner);
+    return bounds;
+}
+
+double distance_to_segment(const Vector2d& point, const Vector2d& a, const Vector2d& b) {
+    const Vector2d along = b - a;
+    const double share = std::clamp((point - a).dot(along) / along.squaredNorm(), 0.0, 1.0);
+    return (point - a - share * along).norm();
+}
+
 bool contains(std::span<const Vector2d> outline, const Vector2d& point) {
     bool is_inside = false;
     for (std::size_t i = 0, j = outline.size() - 1; i < outline.size(); j = i++) {

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 
 #include "roomscribe/geometry/transform.hpp"
 #include "roomscribe/simulation/scenario.hpp"
@@ -56,6 +56,12 @@ OpeningSite locate_opening(const OpeningPlan& opening, std::span<const RoomPlan>
 /// Half the width of the hole in the wall, and its height: a door's frame is set into the hole.
 double hole_half_width(const OpeningPlan& opening);
 double hole_height(const OpeningPlan& opening);
+
+Eigen::AlignedBox2d bounds_of(std::span<const Eigen::Vector2d> outline);
+
+/// From a point to the nearest one of the line from `a` to `b`.
+double distance_to_segment(const Eigen::Vector2d& point, const Eigen::Vector2d& a,
+                           const Eigen::Vector2d& b);
 
 /// True inside a simple polygon.
 bool contains(std::span<const Eigen::Vector2d> outline, const Eigen::Vector2d& point);

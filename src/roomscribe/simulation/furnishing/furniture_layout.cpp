@@ -138,12 +138,8 @@ void add_plates(Furnisher& f) {
 void add_lamps(Furnisher& f, std::string_view use) {
     const RoomFloor& floor = f.floor();
     const double ceiling = floor.room().ceiling_height;
-    Vector2d low = floor.room().outline.front();
-    Vector2d high = low;
-    for (const Vector2d& corner : floor.room().outline) {
-        low = low.cwiseMin(corner);
-        high = high.cwiseMax(corner);
-    }
+    const Eigen::AlignedBox2d bounds = bounds_of(floor.room().outline);
+    const Vector2d size = bounds.sizes();
     const bool is_home = is_any_of(use, {"living", "bedroom", "kitchen", "hall"});
     ItemPlan lamp = f.make(is_home && f.chance(0.6) ? "pendant_lamp" : "ceiling_lamp");
     if (lamp.kind == "pendant_lamp") {
@@ -151,12 +147,12 @@ void add_lamps(Furnisher& f, std::string_view use) {
     }
     lamp.elevation = ceiling - lamp.size.z() - 2.0 * seam;
     const double pitch = is_home ? 4.5 : f.pick(2.0, 3.0);
-    const int columns = std::max(1, static_cast<int>((high.x() - low.x()) / pitch));
-    const int rows = std::max(1, static_cast<int>((high.y() - low.y()) / pitch));
+    const int columns = std::max(1, static_cast<int>(size.x() / pitch));
+    const int rows = std::max(1, static_cast<int>(size.y() / pitch));
     for (int i = 0; i < columns; ++i) {
         for (int j = 0; j < rows; ++j) {
-            lamp.at = {low.x() + (i + 0.5) * (high.x() - low.x()) / columns,
-                       low.y() + (j + 0.5) * (high.y() - low.y()) / rows};
+            lamp.at = {bounds.min().x() + (i + 0.5) * size.x() / columns,
+                       bounds.min().y() + (j + 0.5) * size.y() / rows};
             f.place(lamp);
         }
     }

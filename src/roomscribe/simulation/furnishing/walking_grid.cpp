@@ -15,25 +15,14 @@ constexpr double scanner_wall_distance = 0.9;
 constexpr double scanner_item_distance = 0.4;
 constexpr std::size_t min_scanner_cells = 12;
 
-double distance_to_face(const WallFace& face, const Vector2d& point) {
-    const Vector2d along = face.along();
-    const double share = std::clamp((point - face.start).dot(along), 0.0, face.length());
-    return (point - face.start - share * along).norm();
-}
-
 }  // namespace
 
 WalkingGrid::WalkingGrid(const RoomPlan& room, std::span<const WallFace> walls,
                          std::span<const Eigen::Vector2d> entries) {
-    Vector2d low = room.outline.front();
-    Vector2d high = low;
-    for (const Vector2d& corner : room.outline) {
-        low = low.cwiseMin(corner);
-        high = high.cwiseMax(corner);
-    }
-    origin_ = low;
-    columns_ = static_cast<std::size_t>((high.x() - low.x()) / cell_size) + 1;
-    const auto rows = static_cast<std::size_t>((high.y() - low.y()) / cell_size) + 1;
+    const Eigen::AlignedBox2d bounds = bounds_of(room.outline);
+    origin_ = bounds.min();
+    columns_ = static_cast<std::size_t>(bounds.sizes().x() / cell_size) + 1;
+    const auto rows = static_cast<std::size_t>(bounds.sizes().y() / cell_size) + 1;
     blocked_.assign(columns_ * rows, 1);
     is_roomy_.assign(blocked_.size(), 0);
     for (std::size_t cell = 0; cell < blocked_.size(); ++cell) {
@@ -41,7 +30,7 @@ WalkingGrid::WalkingGrid(const RoomPlan& room, std::span<const WallFace> walls,
         if (!contains(room.outline, point)) continue;
         double nearest = std::numeric_limits<double>::infinity();
         for (const WallFace& wall : walls)
-            nearest = std::min(nearest, distance_to_face(wall, point));
+            nearest = std::min(nearest, distance_to_segment(point, wall.start, wall.end));
         if (nearest < walker_radius) continue;
         blocked_[cell] = 0;
         ++num_walkable_;

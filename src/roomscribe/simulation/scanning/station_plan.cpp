@@ -52,12 +52,6 @@ Carrier carrier_of(ScannerKind scanner) {
     return {};
 }
 
-double distance_to_segment(const Vector2d& point, const Vector2d& a, const Vector2d& b) {
-    const Vector2d along = b - a;
-    const double share = std::clamp((point - a).dot(along) / along.squaredNorm(), 0.0, 1.0);
-    return (point - a - share * along).norm();
-}
-
 double distance_to_outline(const RoomPlan& room, const Vector2d& point) {
     double nearest = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < room.outline.size(); ++i) {
@@ -141,17 +135,12 @@ double widest_distance(const std::vector<Vector2d>& places) {
 std::vector<Vector2d> free_places(const Scenario& scenario, const RoomPlan& room,
                                   double wanted_width) {
     const std::vector<LeafSegment> leaves = open_leaves(scenario);
-    Vector2d low = room.outline.front();
-    Vector2d high = low;
-    for (const Vector2d& corner : room.outline) {
-        low = low.cwiseMin(corner);
-        high = high.cwiseMax(corner);
-    }
+    const Eigen::AlignedBox2d bounds = bounds_of(room.outline);
     std::vector<Vector2d> places;
     for (const double share : {1.0, 0.7, 0.45, 0.3}) {
         places.clear();
-        for (double x = low.x() + 0.1; x < high.x(); x += candidate_step) {
-            for (double y = low.y() + 0.1; y < high.y(); y += candidate_step) {
+        for (double x = bounds.min().x() + 0.1; x < bounds.max().x(); x += candidate_step) {
+            for (double y = bounds.min().y() + 0.1; y < bounds.max().y(); y += candidate_step) {
                 if (is_free(scenario, leaves, room, {x, y}, share)) places.emplace_back(x, y);
             }
         }
