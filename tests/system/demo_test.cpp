@@ -36,7 +36,7 @@ TEST(Demo, LeavesEveryFileOfARun) {
     const nlohmann::json scene = read_json(out / "scene.json");
     EXPECT_EQ(scene.at("format"), "roomscribe-scene");
     EXPECT_EQ(count_components(scene, "floor"), 1U);
-    EXPECT_EQ(count_components(scene, "ceiling"), 1U);
+    EXPECT_GE(count_components(scene, "ceiling"), 1U);
     EXPECT_GE(count_components(scene, "wall"), 4U);
 }
 
