@@ -53,7 +53,7 @@ std::vector<SuiteScene> full_scenes() {
         }
     }
     for (const SceneKind kind : {room, office, kitchen}) {
-        scenes.push_back({kind, seed++, options_of(structured_light)});
+        scenes.push_back({kind, seed++, options_of(structured_light, 12)});
         scenes.push_back({kind, seed++, options_of(structured_light, 8)});
     }
     scenes.push_back({floor, seed++, options_of(terrestrial, 1)});
