@@ -105,7 +105,8 @@ void add_simulate_command(CLI::App& program, Action& action) {
                   "Write scenario.json alone: edit it, then simulate it");
     verb.add_option("--threads", options->num_threads, "0: all of the machine's")
         ->type_name("N")
-        ->capture_default_str();
+        ->capture_default_str()
+        ->check(CLI::Range(0, 1024));
     verb.callback([options, &verb, &action] {
         for (const char* name : {"--seed", "--scanner", "--scans", "--coarseness"})
             options->has_scene_options |= verb.count(name) > 0;

@@ -159,7 +159,8 @@ void add_suite_command(CLI::App& program, Action& action) {
     verb.add_flag("--csv", options->as_csv, "Print CSV, one line a value")->excludes(json);
     verb.add_option("--threads", options->num_threads, "0: all of the machine's")
         ->type_name("N")
-        ->capture_default_str();
+        ->capture_default_str()
+        ->check(CLI::Range(0, 1024));
     verb.callback([options, &action] {
         action = [options](const std::atomic<bool>& cancel) { return suite(*options, cancel); };
     });

@@ -42,9 +42,9 @@ constexpr const char* other_room_text = R"({
 constexpr const char* furnished_room_text = R"({
   "rooms": [ { "name": "office", "use": "office", "ceiling_height": 2.7,
                "outline": [[0, 0], [5, 0], [5, 4], [0, 4]] } ],
-  "openings": [ { "kind": "door", "room": "office", "at": [4.2, 0], "width": 0.86, "recess": 0.04 },
+  "openings": [ { "kind": "door", "room": "office", "at": [4.2, 0], "width": 0.86, "recess": 0 },
                 { "kind": "window", "room": "office", "at": [2.2, 4], "width": 1.2, "height": 1.1,
-                  "sill": 0.9, "frame_width": 0.07, "recess": 0.1 } ],
+                  "sill": 0.9, "frame_width": 0.07, "recess": 0.1, "blind": 1 } ],
   "items": [ { "kind": "desk", "at": [2.2, 3.5], "turn": -90, "size": [0.8, 1.6, 0.74], "style": 2 },
              { "kind": "office_chair", "at": [2.3, 2.7], "turn": 80, "style": 1 },
              { "kind": "cabinet", "at": [0.23, 1.2], "turn": 0, "size": [0.4, 1.2, 1.1], "style": 4 },

@@ -95,6 +95,19 @@ std::vector<Transform> read_true_poses(const fs::path& path, const Context& cont
     return poses;
 }
 
+/// A folder that held more scans before would seem to hold them still.
+void remove_scans_from(const fs::path& folder, std::size_t first) {
+    std::error_code error;
+    for (std::size_t i = first; !error; ++i) {
+        const fs::path scan = folder / "scans" / (scan_name(i) + ".ply");
+        const fs::path labels = folder / "truth" / (scan_name(i) + ".labels.npy");
+        if (!fs::exists(scan) && !fs::exists(labels)) return;
+        if (fs::remove(scan, error); !error) fs::remove(labels, error);
+    }
+    throw IoError((folder / "scans").string(), "truth folder", {}, error.message(),
+                  "choose a folder that you may write to");
+}
+
 /// One section per scan if the sizes of all scans are known, else one for the whole map.
 std::vector<MapSection> find_sections(const fs::path& truth_files,
                                       std::span<const Transform> map_from_scan,
@@ -179,6 +192,7 @@ void write_truth_folder(const fs::path& folder, const GroundTruth& truth,
         poses.emplace_back(
             in_file_coordinates(truth.map_from_scan[i], map_shift, cloud.global_shift));
     }
+    remove_scans_from(folder, scans.size());
     write_point_cloud(folder / "map.ply", truth.map.cloud, {}, context);
     write_poses(truth_files / "poses.txt", poses);
     write_npy(truth_files / "map.labels.npy", all_labels);

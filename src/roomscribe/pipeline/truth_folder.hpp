@@ -21,8 +21,9 @@ namespace roomscribe {
 ///     truth/map.instances.npy  int32
 ///     truth/map.acceptable.npy uint16, LabelSet: an addition of roomscribe's
 ///
-/// `scans` are those that the map was made of, in its order. Throws InvalidArgument if the arrays
-/// do not fit together, and IoError if a file cannot be written.
+/// `scans` are those that the map was made of, in its order. Scans and labels of a longer scene
+/// that was in the folder before are removed. Throws InvalidArgument if the arrays do not fit
+/// together, and IoError if a file cannot be written.
 void write_truth_folder(const std::filesystem::path& folder, const GroundTruth& truth,
                         std::span<const Scan> scans, const Context& context = {});
 

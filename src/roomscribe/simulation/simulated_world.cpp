@@ -18,7 +18,7 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 std::uint32_t add_vertex(SimulatedWorld& world, const Vector3d& position) {
-    world.vertices.push_back(position.cast<float>());
+    world.vertices.emplace_back(position.cast<float>());
     return static_cast<std::uint32_t>(world.vertices.size() - 1);
 }
 

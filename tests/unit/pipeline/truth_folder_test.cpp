@@ -104,6 +104,24 @@ TEST(TruthFolder, GivesBackWhatWasWritten) {
     EXPECT_EQ(read.scene.components[1].kind, "column");
 }
 
+TEST(TruthFolder, LeavesNothingOfALongerSceneThatWasThereBefore) {
+    const TemporaryFolder folder;
+    const TwoScans two;
+    write_truth_folder(folder.path(), two.truth, two.scans);
+    GroundTruth one = two.truth;
+    const std::vector<Scan> scans{two.scans[0]};
+    one.map_from_scan.resize(1);
+    one.map = merge_scans(scans, std::vector<std::optional<Transform>>{Transform::Identity()});
+    one.labels.resize(2);
+    one.instances.resize(2);
+    one.acceptable.resize(2);
+    write_truth_folder(folder.path(), one, scans);
+    EXPECT_TRUE(std::filesystem::exists(folder / "scans/000.ply"));
+    EXPECT_FALSE(std::filesystem::exists(folder / "scans/001.ply"));
+    EXPECT_FALSE(std::filesystem::exists(folder / "truth/001.labels.npy"));
+    EXPECT_EQ(read_truth_folder(folder.path()).map.sections.size(), 1U);
+}
+
 TEST(TruthFolder, ReadsWhatAnotherProgramWroteWithoutOurAdditions) {
     const TemporaryFolder folder;
     const TwoScans two;

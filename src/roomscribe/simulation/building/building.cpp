@@ -30,14 +30,6 @@ constexpr double widest_wall_cell = 0.5;
 constexpr double skirting_height = 0.07;
 constexpr double skirting_thickness = 0.014;
 
-/// On a wall face: x along it from its start, z up.
-struct Hole {
-    double x_low = 0.0;
-    double x_high = 0.0;
-    double z_low = 0.0;
-    double z_high = 0.0;
-};
-
 /// Ascending, ends included, no step wider than `step`.
 std::vector<double> cut(double low, double high, std::vector<double> at, double step) {
     at.push_back(low);
@@ -59,12 +51,12 @@ std::vector<double> cut(double low, double high, std::vector<double> at, double 
 /// nothing.
 class WallSheet {
   public:
-    WallSheet(const WallFace& face, double floor, double ceiling, std::vector<Hole> holes,
+    WallSheet(const WallFace& face, double floor, double ceiling, std::vector<WallArea> holes,
               double phase)
         : face_(face), holes_(std::move(holes)), phase_(phase) {
         std::vector<double> at_x;
         std::vector<double> at_z;
-        for (const Hole& hole : holes_) {
+        for (const WallArea& hole : holes_) {
             at_x.insert(at_x.end(), {hole.x_low, hole.x_high});
             at_z.insert(at_z.end(), {hole.z_low, hole.z_high});
         }
@@ -88,7 +80,7 @@ class WallSheet {
         if (i + 1 >= x_.size() || j + 1 >= z_.size()) return false;
         const double x = (x_[i] + x_[i + 1]) / 2.0;
         const double z = (z_[j] + z_[j + 1]) / 2.0;
-        return std::none_of(holes_.begin(), holes_.end(), [&](const Hole& hole) {
+        return std::none_of(holes_.begin(), holes_.end(), [&](const WallArea& hole) {
             return x > hole.x_low && x < hole.x_high && z > hole.z_low && z < hole.z_high;
         });
     }
@@ -111,7 +103,7 @@ class WallSheet {
     }
 
     WallFace face_;
-    std::vector<Hole> holes_;
+    std::vector<WallArea> holes_;
     double phase_;
     std::vector<double> x_;
     std::vector<double> z_;
@@ -129,7 +121,7 @@ std::vector<Vector3d> lifted(const std::vector<Vector2d>& outline, double z) {
 struct BuildingIndex {
     std::vector<std::int32_t> floor_of_room;
     std::vector<std::int32_t> wall_of_face;
-    std::vector<std::vector<Hole>> holes_of_face;
+    std::vector<std::vector<WallArea>> holes_of_face;
 };
 
 void check_outline(const RoomPlan& room) {
@@ -195,7 +187,7 @@ void declare_walls(SimulatedWorld& world, const Scenario& scenario,
 }
 
 /// The hole that an opening leaves in a face that it goes through.
-Hole hole_in(const WallFace& face, const OpeningPlan& opening, const OpeningSite& site) {
+WallArea hole_in(const WallFace& face, const OpeningPlan& opening, const OpeningSite& site) {
     const Vector2d middle = site.world_from_site.translation().head<2>();
     const double x = (middle - face.start).dot(face.along());
     const double half_width = hole_half_width(opening);
@@ -230,16 +222,16 @@ void add_openings(SimulatedWorld& world, const Scenario& scenario,
 
 /// Skirting boards run between the doorways.
 void add_skirting(SimulatedWorld& world, const WallFace& face, double floor,
-                  const std::vector<Hole>& holes, std::int32_t wall) {
+                  const std::vector<WallArea>& holes, std::int32_t wall) {
     const std::uint32_t part = add_part(world, wall, Material::wood, label_bit(Label::unknown));
     std::vector<double> stops{0.0};
-    std::vector<Hole> doorways;
-    for (const Hole& hole : holes) {
+    std::vector<WallArea> doorways;
+    for (const WallArea& hole : holes) {
         if (hole.z_low <= floor + skirting_height) doorways.push_back(hole);
     }
     std::sort(doorways.begin(), doorways.end(),
-              [](const Hole& a, const Hole& b) { return a.x_low < b.x_low; });
-    for (const Hole& doorway : doorways)
+              [](const WallArea& a, const WallArea& b) { return a.x_low < b.x_low; });
+    for (const WallArea& doorway : doorways)
         stops.insert(stops.end(), {doorway.x_low, doorway.x_high});
     stops.push_back(face.length());
     Transform frame = Transform::Identity();
@@ -297,8 +289,8 @@ void add_outer_faces(SimulatedWorld& world, const Scenario& scenario,
         const double after = overhang(scenario, face.end + outside, face.along());
         WallFace outer{face.room, face.start + outside - before * face.along(),
                        face.end + outside + after * face.along()};
-        std::vector<Hole> holes = index.holes_of_face[i];
-        for (Hole& hole : holes) {
+        std::vector<WallArea> holes = index.holes_of_face[i];
+        for (WallArea& hole : holes) {
             hole.x_low += before;
             hole.x_high += before;
         }

@@ -446,12 +446,10 @@ Scenario plan_building(SceneKind kind, std::uint64_t seed) {
             lay_out_room(scenario, use, rectangle(0.0, 0.0, width, depth), ceiling, random);
             break;
         case SceneKind::l_room:
-            lay_out_room(scenario, pick(uses, random), l_shape(width + 2.0, depth + 2.0, random),
-                         ceiling, random);
+            lay_out_room(scenario, use, l_shape(width + 2.0, depth + 2.0, random), ceiling, random);
             break;
         case SceneKind::slanted:
-            lay_out_room(scenario, pick(uses, random), slanted_shape(width + 1.5, depth, random),
-                         ceiling, random);
+            lay_out_room(scenario, use, slanted_shape(width + 1.5, depth, random), ceiling, random);
             break;
         case SceneKind::office:
             lay_out_room(scenario, "office", rectangle(0.0, 0.0, width + 2.0, depth + 0.5), ceiling,

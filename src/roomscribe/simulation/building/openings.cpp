@@ -21,15 +21,7 @@ constexpr double gap_under_leaf = 0.008;
 constexpr double lever_height = 1.05;
 constexpr double window_frame_depth = 0.07;
 
-/// A rectangle in the plane of an opening, seen from the room: x to the left, z up from the floor.
-struct Rectangle {
-    double x_low = 0.0;
-    double x_high = 0.0;
-    double z_low = 0.0;
-    double z_high = 0.0;
-};
-
-std::vector<Vector3d> corners_at(const Transform& frame, const Rectangle& area, double y) {
+std::vector<Vector3d> corners_at(const Transform& frame, const WallArea& area, double y) {
     return {frame * Vector3d(area.x_low, y, area.z_low),
             frame * Vector3d(area.x_high, y, area.z_low),
             frame * Vector3d(area.x_high, y, area.z_high),
@@ -37,18 +29,18 @@ std::vector<Vector3d> corners_at(const Transform& frame, const Rectangle& area, 
 }
 
 void add_sheet(SimulatedWorld& world, std::uint32_t part, const Transform& frame,
-               const Rectangle& area, double y) {
+               const WallArea& area, double y) {
     add_polygon(world, part, corners_at(frame, area, y));
 }
 
 /// The border between two rectangles, the inner one within the outer; no strip where they touch.
 void add_border(SimulatedWorld& world, std::uint32_t part, const Transform& frame,
-                const Rectangle& outer, const Rectangle& inner, double y) {
-    const std::array strips{Rectangle{outer.x_low, inner.x_low, outer.z_low, outer.z_high},
-                            Rectangle{inner.x_high, outer.x_high, outer.z_low, outer.z_high},
-                            Rectangle{inner.x_low, inner.x_high, outer.z_low, inner.z_low},
-                            Rectangle{inner.x_low, inner.x_high, inner.z_high, outer.z_high}};
-    for (const Rectangle& strip : strips) {
+                const WallArea& outer, const WallArea& inner, double y) {
+    const std::array strips{WallArea{outer.x_low, inner.x_low, outer.z_low, outer.z_high},
+                            WallArea{inner.x_high, outer.x_high, outer.z_low, outer.z_high},
+                            WallArea{inner.x_low, inner.x_high, outer.z_low, inner.z_low},
+                            WallArea{inner.x_low, inner.x_high, inner.z_high, outer.z_high}};
+    for (const WallArea& strip : strips) {
         if (strip.x_high - strip.x_low > 0.0 && strip.z_high - strip.z_low > 0.0) {
             add_sheet(world, part, frame, strip, y);
         }
@@ -57,7 +49,7 @@ void add_border(SimulatedWorld& world, std::uint32_t part, const Transform& fram
 
 /// The sides of a tunnel through the wall; its bottom too if that is above the floor.
 void add_tunnel(SimulatedWorld& world, std::uint32_t part, const Transform& frame,
-                const Rectangle& area, double y_near, double y_far) {
+                const WallArea& area, double y_near, double y_far) {
     const std::vector<Vector3d> near = corners_at(frame, area, y_near);
     const std::vector<Vector3d> far = corners_at(frame, area, y_far);
     for (std::size_t i = area.z_low > 0.0 ? 0 : 1; i < 4; ++i) {
@@ -68,7 +60,7 @@ void add_tunnel(SimulatedWorld& world, std::uint32_t part, const Transform& fram
 
 /// A frame of boxes within `outer`, `width` wide.
 void add_frame_boxes(SimulatedWorld& world, std::uint32_t part, const Transform& frame,
-                     const Rectangle& outer, double width, double y_low, double y_high) {
+                     const WallArea& outer, double width, double y_low, double y_high) {
     const auto bar = [&](double x_low, double x_high, double z_low, double z_high) {
         add_box(world, part, frame, {x_low, y_low, z_low}, {x_high, y_high, z_high});
     };
@@ -100,29 +92,21 @@ Transform frame_of_lever(const Transform& leaf, const Vector3d& spindle, double 
     return leaf * lever;
 }
 
-struct Leaf {
-    Rectangle area;
-    double y_low = 0.0;
-    double hinge_side = 1.0;  ///< +1: hinged at x_high
-    double angle = 0.0;       ///< rad from closed, towards `swing`
-    double swing = 1.0;       ///< +1: into the room
-};
+/// The whole doorway but for the gaps around.
+WallArea closed_leaf(const OpeningPlan& opening) {
+    const double half = opening.width / 2.0;
+    return {-half + leaf_gap, half - leaf_gap, gap_under_leaf, opening.height - leaf_gap};
+}
 
-/// The leaf turns about its hinge, which sits on the side to which it opens.
-Transform frame_of_leaf(const Transform& site, const Leaf& leaf) {
-    const double y = leaf.swing > 0.0 ? leaf.y_low + leaf_thickness : leaf.y_low;
-    const Vector3d hinge(leaf.hinge_side > 0.0 ? leaf.area.x_high : leaf.area.x_low, y, 0.0);
-    Transform frame = site;
-    frame.translate(hinge);
-    frame.rotate(Eigen::AngleAxisd(-leaf.hinge_side * leaf.swing * leaf.angle, Vector3d::UnitZ()));
-    frame.translate(-hinge);
-    return frame;
+double leaf_back(const OpeningPlan& opening, const OpeningSite& site) {
+    return opening.opens_into_room ? -opening.recess - leaf_thickness
+                                   : -site.thickness + opening.recess;
 }
 
 void add_leaf(SimulatedWorld& world, const OpeningPlan& opening, const Transform& site,
-              std::int32_t door, const Leaf& leaf, Random& random) {
+              std::int32_t door, const DoorLeaf& leaf, Random& random) {
     const Transform frame = frame_of_leaf(site, leaf);
-    const Rectangle& area = leaf.area;
+    const WallArea& area = leaf.area;
     const double y_high = leaf.y_low + leaf_thickness;
     const bool is_dark = random.uniform() < 0.25;
     const std::uint32_t part =
@@ -155,8 +139,8 @@ void add_door_frame(SimulatedWorld& world, const OpeningPlan& opening, const Ope
     const double half = opening.width / 2.0;
     const double outer = half + opening.frame_width;
     const double out = opening.frame_protrusion;
-    const Rectangle hole{-outer, outer, 0.0, opening.height + opening.frame_width};
-    const Rectangle way{-half, half, 0.0, opening.height};
+    const WallArea hole{-outer, outer, 0.0, opening.height + opening.frame_width};
+    const WallArea way{-half, half, 0.0, opening.height};
 
     Component frame;
     frame.label = Label::door_frame;
@@ -196,35 +180,14 @@ void add_threshold(SimulatedWorld& world, const OpeningPlan& opening, const Open
 
 std::int32_t add_door(SimulatedWorld& world, const OpeningPlan& opening, const OpeningSite& site) {
     Random random(opening.style);
-    const double half = opening.width / 2.0;
-    const double y_low = opening.opens_into_room ? -opening.recess - leaf_thickness
-                                                 : -site.thickness + opening.recess;
-    const Rectangle closed{-half + leaf_gap, half - leaf_gap, gap_under_leaf,
-                           opening.height - leaf_gap};
     Component component;
     component.label = Label::door;
     component.kind = opening.is_glazed ? "glazed_door" : opening.is_double ? "double_door" : "";
-    component.polygon = corners_at(site.world_from_site, closed, y_low + leaf_thickness / 2.0);
+    component.polygon = corners_at(site.world_from_site, closed_leaf(opening),
+                                   leaf_back(opening, site) + leaf_thickness / 2.0);
     const std::int32_t door = add_component(world, std::move(component));
-
-    const double swing = opening.opens_into_room ? 1.0 : -1.0;
-    const double angle = opening.leaf == LeafState::closed ? 0.0 : radians(opening.leaf_angle);
-    const double hinge_side = opening.is_hinged_left ? 1.0 : -1.0;
-    if (!opening.is_double) {
-        add_leaf(world, opening, site.world_from_site, door,
-                 {closed, y_low, hinge_side, angle, swing}, random);
-        return door;
-    }
-    // The passive leaf stays where it is unless the door stands wide open.
-    const double passive_angle = opening.leaf == LeafState::open ? angle : 0.0;
-    Rectangle left = closed;
-    left.x_low = leaf_gap / 2.0;
-    Rectangle right = closed;
-    right.x_high = -leaf_gap / 2.0;
-    add_leaf(world, opening, site.world_from_site, door,
-             {left, y_low, 1.0, hinge_side > 0.0 ? angle : passive_angle, swing}, random);
-    add_leaf(world, opening, site.world_from_site, door,
-             {right, y_low, -1.0, hinge_side < 0.0 ? angle : passive_angle, swing}, random);
+    for (const DoorLeaf& leaf : door_leaves(opening, site))
+        add_leaf(world, opening, site.world_from_site, door, leaf, random);
     return door;
 }
 
@@ -239,7 +202,7 @@ std::int32_t add_passage(SimulatedWorld& world, const OpeningPlan& opening,
 }
 
 void add_blind(SimulatedWorld& world, const OpeningPlan& opening, const Transform& frame,
-               std::int32_t window, const Rectangle& hole) {
+               std::int32_t window, const WallArea& hole) {
     const std::uint32_t part = add_part(world, window, Material::fabric, label_bit(Label::unknown));
     const double low = hole.z_high - opening.blind * (hole.z_high - hole.z_low);
     const double y = -opening.recess + 0.012;
@@ -255,9 +218,9 @@ void add_window(SimulatedWorld& world, const OpeningPlan& opening, const Opening
     const Transform& frame = site.world_from_site;
     const double half = opening.width / 2.0;
     const double width = opening.frame_width;
-    const Rectangle hole{-half, half, opening.sill, opening.sill + opening.height};
-    const Rectangle glazing{hole.x_low + width, hole.x_high - width, hole.z_low + width,
-                            hole.z_high - width};
+    const WallArea hole{-half, half, opening.sill, opening.sill + opening.height};
+    const WallArea glazing{hole.x_low + width, hole.x_high - width, hole.z_low + width,
+                           hole.z_high - width};
     const double front = -opening.recess;
     const double pane_y = front - window_frame_depth / 2.0;
 
@@ -299,7 +262,7 @@ void add_window(SimulatedWorld& world, const OpeningPlan& opening, const Opening
 
 void add_niche(SimulatedWorld& world, const OpeningPlan& opening, const OpeningSite& site) {
     const double half = opening.width / 2.0;
-    const Rectangle hole{-half, half, opening.sill, opening.sill + opening.height};
+    const WallArea hole{-half, half, opening.sill, opening.sill + opening.height};
     Component component;
     component.kind = "niche";
     component.polygon = corners_at(site.world_from_site, hole, -opening.recess);
@@ -310,6 +273,33 @@ void add_niche(SimulatedWorld& world, const OpeningPlan& opening, const OpeningS
 }
 
 }  // namespace
+
+std::vector<DoorLeaf> door_leaves(const OpeningPlan& opening, const OpeningSite& site) {
+    const WallArea closed = closed_leaf(opening);
+    const double y_low = leaf_back(opening, site);
+    const double swing = opening.opens_into_room ? 1.0 : -1.0;
+    const double angle = opening.leaf == LeafState::closed ? 0.0 : radians(opening.leaf_angle);
+    const double hinge_side = opening.is_hinged_left ? 1.0 : -1.0;
+    if (!opening.is_double) return {{closed, y_low, hinge_side, angle, swing}};
+    // The passive leaf stays where it is unless the door stands wide open.
+    const double passive_angle = opening.leaf == LeafState::open ? angle : 0.0;
+    WallArea left = closed;
+    left.x_low = leaf_gap / 2.0;
+    WallArea right = closed;
+    right.x_high = -leaf_gap / 2.0;
+    return {{left, y_low, 1.0, hinge_side > 0.0 ? angle : passive_angle, swing},
+            {right, y_low, -1.0, hinge_side < 0.0 ? angle : passive_angle, swing}};
+}
+
+Transform frame_of_leaf(const Transform& world_from_site, const DoorLeaf& leaf) {
+    const double y = leaf.swing > 0.0 ? leaf.y_low + leaf_thickness : leaf.y_low;
+    const Vector3d hinge(leaf.hinge_side > 0.0 ? leaf.area.x_high : leaf.area.x_low, y, 0.0);
+    Transform frame = world_from_site;
+    frame.translate(hinge);
+    frame.rotate(Eigen::AngleAxisd(-leaf.hinge_side * leaf.swing * leaf.angle, Vector3d::UnitZ()));
+    frame.translate(-hinge);
+    return frame;
+}
 
 std::int32_t add_opening(SimulatedWorld& world, const OpeningPlan& opening, const OpeningSite& site,
                          std::int32_t wall, std::int32_t floor) {

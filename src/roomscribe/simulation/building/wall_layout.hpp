@@ -53,6 +53,15 @@ struct OpeningSite {
 OpeningSite locate_opening(const OpeningPlan& opening, std::span<const RoomPlan> rooms,
                            std::span<const WallFace> faces, double outer_wall_thickness);
 
+/// A rectangle in the plane of a wall: x along it, z up. On a face x runs from its start and z is
+/// the world's; at an opening's site both are the site's.
+struct WallArea {
+    double x_low = 0.0;
+    double x_high = 0.0;
+    double z_low = 0.0;
+    double z_high = 0.0;
+};
+
 /// Half the width of the hole in the wall, and its height: a door's frame is set into the hole.
 double hole_half_width(const OpeningPlan& opening);
 double hole_height(const OpeningPlan& opening);

@@ -11,7 +11,9 @@
 
 #include "roomscribe/core/error.hpp"
 #include "roomscribe/core/units.hpp"
+#include "roomscribe/simulation/building/openings.hpp"
 #include "roomscribe/simulation/building/wall_layout.hpp"
+#include "roomscribe/simulation/furnishing/footprint.hpp"
 
 namespace roomscribe {
 namespace {
@@ -64,8 +66,8 @@ double distance_to_outline(const RoomPlan& room, const Vector2d& point) {
 
 /// Where the leaves of doors stand that are not closed.
 struct LeafSegment {
-    Vector2d hinge;
-    Vector2d tip;
+    Vector2d start;
+    Vector2d end;
 };
 
 std::vector<LeafSegment> open_leaves(const Scenario& scenario) {
@@ -75,32 +77,20 @@ std::vector<LeafSegment> open_leaves(const Scenario& scenario) {
         if (opening.kind != OpeningKind::door || opening.leaf == LeafState::closed) continue;
         const OpeningSite site =
             locate_opening(opening, scenario.rooms, faces, scenario.outer_wall_thickness);
-        const double swing = opening.opens_into_room ? 1.0 : -1.0;
-        const double length = opening.is_double ? opening.width / 2.0 : opening.width;
-        const double y =
-            opening.opens_into_room ? -opening.recess : -site.thickness + opening.recess;
-        for (const double side : {-1.0, 1.0}) {
-            if (!opening.is_double && (side > 0.0) != opening.is_hinged_left) continue;
-            const double angle = radians(opening.leaf_angle);
-            const Eigen::Vector3d hinge(side * opening.width / 2.0, y, 0.0);
-            const Eigen::Vector3d along(-side * std::cos(angle), swing * std::sin(angle), 0.0);
-            const Eigen::Vector3d tip = hinge + length * along;
-            leaves.push_back(
-                {(site.world_from_site * hinge).head<2>(), (site.world_from_site * tip).head<2>()});
+        for (const DoorLeaf& leaf : door_leaves(opening, site)) {
+            if (leaf.angle == 0.0) continue;
+            const Transform frame = frame_of_leaf(site.world_from_site, leaf);
+            const Eigen::Vector3d low = frame * Eigen::Vector3d(leaf.area.x_low, leaf.y_low, 0.0);
+            const Eigen::Vector3d high = frame * Eigen::Vector3d(leaf.area.x_high, leaf.y_low, 0.0);
+            leaves.push_back({low.head<2>(), high.head<2>()});
         }
     }
     return leaves;
 }
 
-/// Distance of a point to an item's footprint; 0 inside.
-double distance_to_item(const ItemPlan& item, const Vector2d& point) {
-    const double turn = radians(item.turn);
-    const Vector2d front(std::cos(turn), std::sin(turn));
-    const Vector2d left(-front.y(), front.x());
-    const Vector2d offset = point - item.at;
-    const double x = std::max(0.0, std::abs(offset.dot(front)) - item.size.x() / 2.0);
-    const double y = std::max(0.0, std::abs(offset.dot(left)) - item.size.y() / 2.0);
-    return std::hypot(x, y);
+Footprint footprint_of(const ItemPlan& item) {
+    const Eigen::Vector3d half(item.size.x() / 2.0, item.size.y() / 2.0, item.size.z());
+    return footprint_of(item, {Eigen::Vector3d(-half.x(), -half.y(), 0.0), half});
 }
 
 bool is_free(const Scenario& scenario, std::span<const LeafSegment> leaves, const RoomPlan& room,
@@ -113,11 +103,11 @@ bool is_free(const Scenario& scenario, std::span<const LeafSegment> leaves, cons
     const auto bars = [&](const ItemPlan& item) {
         if (item.elevation >= room.floor_height + passable_height) return false;
         const bool is_tall = item.elevation + item.size.z() > room.floor_height + eye_height;
-        return distance_to_item(item, point) <
+        return footprint_of(item).distance(point) <
                (is_tall ? tall_clearance : share_of_clearance * item_clearance);
     };
     const auto stands_in_the_way = [&](const LeafSegment& leaf) {
-        return distance_to_segment(point, leaf.hinge, leaf.tip) < tall_clearance;
+        return distance_to_segment(point, leaf.start, leaf.end) < tall_clearance;
     };
     return std::none_of(scenario.items.begin(), scenario.items.end(), bars) &&
            std::none_of(leaves.begin(), leaves.end(), stands_in_the_way);
@@ -196,7 +186,7 @@ void add_surround_stations(std::vector<Station>& stations, const RoomPlan& room,
         });
         chosen.push_back(place);
     }
-    // Walked through from one end.
+    // The first of all stays first; the others are walked through from one end.
     std::sort(chosen.begin() + (stations.empty() ? 1 : 0), chosen.end(),
               [](const Vector2d& a, const Vector2d& b) { return a.x() < b.x(); });
     for (const Vector2d& place : chosen) {
@@ -260,7 +250,7 @@ std::vector<Station> choose_stations(const Scenario& scenario, std::span<const s
         double longest = 0.0;
         for (const Vector2d& place : places)
             longest = std::max(longest, (place - centroid(places)).norm() * 2.0);
-        const int more = static_cast<int>(longest / 6.0) * (per_room > 0 ? 1 : 0);
+        const int more = static_cast<int>(longest / 6.0);
         add_surround_stations(stations, room, places, per_room + more, carrier, random);
     }
     return stations;
@@ -269,7 +259,6 @@ std::vector<Station> choose_stations(const Scenario& scenario, std::span<const s
 int usual_scans_per_room(ScannerKind scanner) {
     switch (scanner) {
         case ScannerKind::sick_lms200:
-            return 4;
         case ScannerKind::hokuyo_utm30lx:
             return 4;
         case ScannerKind::terrestrial:
