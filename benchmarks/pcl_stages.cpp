@@ -1,14 +1,20 @@
 // SPDX-License-Identifier: MIT
 #include "pcl_stages.hpp"
 
+#include <numbers>
+
 #include <pcl/features/fpfh_omp.h>
+#include <pcl/features/narf_descriptor.h>
 #include <pcl/features/normal_3d_omp.h>
+#include <pcl/features/range_image_border_extractor.h>
 #include <pcl/filters/extract_indices.h>
 #include <pcl/filters/filter.h>
 #include <pcl/filters/voxel_grid.h>
 #include <pcl/io/pcd_io.h>
 #include <pcl/io/ply_io.h>
+#include <pcl/keypoints/narf_keypoint.h>
 #include <pcl/point_types.h>
+#include <pcl/range_image/range_image.h>
 #include <pcl/registration/correspondence_estimation.h>
 #include <pcl/registration/correspondence_rejection_sample_consensus.h>
 #include <pcl/registration/icp.h>
@@ -97,6 +103,28 @@ void PclStages::describe(PclScan& scan, double radius) {
     estimation.setRadiusSearch(radius);
     scan.data->signatures = std::make_shared<Signatures>();
     estimation.compute(*scan.data->signatures);
+}
+
+std::size_t PclStages::find_narf(const PclScan& scan, double angular_resolution,
+                                 double support_size) {
+    pcl::RangeImage image;
+    const auto angle = static_cast<float>(angular_resolution);
+    constexpr float pi = std::numbers::pi_v<float>;
+    image.createFromPointCloud(*scan.data->raw, angle, angle, 2.0F * pi, pi,
+                               Eigen::Affine3f::Identity(), pcl::RangeImage::LASER_FRAME);
+    pcl::RangeImageBorderExtractor extractor;
+    extractor.getParameters().max_no_of_threads = num_threads;
+    pcl::NarfKeypoint detector(&extractor, static_cast<float>(support_size));
+    detector.getParameters().max_no_of_threads = num_threads;
+    detector.setRangeImage(&image);
+    pcl::PointCloud<int> keypoints;
+    detector.compute(keypoints);
+    const pcl::Indices pixels(keypoints.begin(), keypoints.end());
+    pcl::NarfDescriptor descriptor(&image, &pixels);
+    descriptor.getParameters().support_size = static_cast<float>(support_size);
+    pcl::PointCloud<pcl::Narf36> narfs;
+    descriptor.compute(narfs);
+    return keypoints.size();
 }
 
 std::size_t PclStages::match(PclScan& source, const PclScan& target) {

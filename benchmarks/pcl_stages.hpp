@@ -9,7 +9,7 @@
 #include <Eigen/Core>
 
 #include "roomscribe/geometry/transform.hpp"
-#include "roomscribe/registration/fpfh_descriptor.hpp"
+#include "roomscribe/registration/features/fpfh_descriptor.hpp"
 
 namespace roomscribe::benchmark {
 
@@ -32,6 +32,10 @@ struct PclStages {
     static void downsample(PclScan& scan, double voxel_size);  ///< raw points -> points
     static void estimate_normals(PclScan& scan, int num_neighbors);
     static void describe(PclScan& scan, double radius);
+    /// Range image of the raw points, borders, keypoints and descriptors; returns how many
+    /// keypoints.
+    static std::size_t find_narf(const PclScan& scan, double angular_resolution,
+                                 double support_size);
     /// Mutual nearest neighbours; returns how many.
     static std::size_t match(PclScan& source, const PclScan& target);
     static Transform reject(const PclScan& source, const PclScan& target, double inlier_distance);

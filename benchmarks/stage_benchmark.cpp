@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 // stage_benchmark TARGET SOURCE [REPETITIONS]: times every stage beside PCL's on the same input.
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cstdlib>
 #include <exception>
 #include <functional>
 #include <numeric>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -15,9 +17,11 @@
 #include "roomscribe/preprocessing/normal_estimation.hpp"
 #include "roomscribe/preprocessing/scan_statistics.hpp"
 #include "roomscribe/preprocessing/voxel_grid.hpp"
-#include "roomscribe/registration/correspondence_rejection.hpp"
-#include "roomscribe/registration/correspondences.hpp"
-#include "roomscribe/registration/icp.hpp"
+#include "roomscribe/registration/alignment/icp.hpp"
+#include "roomscribe/registration/features/correspondence_rejection.hpp"
+#include "roomscribe/registration/features/correspondences.hpp"
+#include "roomscribe/registration/features/narf_descriptor.hpp"
+#include "roomscribe/registration/features/narf_keypoints.hpp"
 #include "roomscribe/registration/scan_registration.hpp"
 #include "roomscribe/structure/plane_growing.hpp"
 #include "roomscribe/structure/surface_sample.hpp"
@@ -170,20 +174,52 @@ void compare_icp(Ours& target, Ours& source, PclScan& pcl_target, PclScan& pcl_s
     PclStages::set_points(pcl_target, target.points, target.normals);
     PclStages::set_points(pcl_source, source.points, source.normals);
     Transform theirs = Transform::Identity();
-    for (const IcpMethod method : {IcpMethod::point_to_point, IcpMethod::point_to_plane}) {
+    const std::array<std::pair<IcpMethod, std::string_view>, 3> methods{{
+        {IcpMethod::point_to_point, "ICP, both point-to-point"},
+        {IcpMethod::point_to_plane, "ICP, ours point-to-plane"},
+        {IcpMethod::generalized, "ICP, ours generalized"},
+    }};
+    for (const auto& [method, name] : methods) {
         IcpResult result;
+        const IcpSettings settings{.method = method,
+                                   .max_correspondence_distance = icp_reach,
+                                   .kernel = method == IcpMethod::point_to_point
+                                                 ? RobustKernel::none
+                                                 : RobustKernel::tukey};
         compare(
-            method == IcpMethod::point_to_point ? "ICP, both point-to-point"
-                                                : "ICP, ours point-to-plane",
-            fmt::format("{} points", source.points.size()), repetitions,
+            name, fmt::format("{} points", source.points.size()), repetitions,
             [&] {
                 result = align_icp({source.points, source.normals},
-                                   {target.points, target.normals, target.tree}, guess,
-                                   {.method = method, .max_correspondence_distance = icp_reach},
+                                   {target.points, target.normals, target.tree}, guess, settings,
                                    two_threads());
             },
             [&] { theirs = PclStages::align(pcl_source, pcl_target, guess, icp_reach); });
         print_difference("aligned poses", result.target_from_source, theirs);
+    }
+}
+
+void compare_narf(const Ours& scan, const PclScan& pcl_scan, int repetitions) {
+    constexpr double angular_resolution = radians(0.5);
+    for (const double support_size : {0.2, 0.5}) {
+        std::size_t num_ours = 0;
+        std::size_t num_theirs = 0;
+        compare(
+            fmt::format("NARF, all, support {} m", support_size),
+            fmt::format("{} points", scan.scan.cloud.size()), repetitions,
+            [&] {
+                const Context context = two_threads();
+                const RangeImage image = make_range_image(
+                    scan.scan, {.angular_resolution = angular_resolution}, context);
+                std::vector<std::uint32_t> pixels;
+                for (const NarfKeypoint& keypoint :
+                     detect_narf_keypoints(image, {.support_size = support_size}, context)) {
+                    pixels.push_back(keypoint.pixel);
+                }
+                compute_narf(image, pixels, {.support_size = support_size}, context);
+                num_ours = pixels.size();
+            },
+            [&] { num_theirs = PclStages::find_narf(pcl_scan, angular_resolution, support_size); });
+        fmt::print("    keypoints: ours {}, PCL {}\n", num_ours, num_theirs);
     }
 }
 
@@ -257,6 +293,7 @@ void run(const std::filesystem::path& target_path, const std::filesystem::path& 
     const Transform guess =
         compare_registration_stages(target, source, pcl_target, pcl_source, repetitions);
     compare_icp(target, source, pcl_target, pcl_source, guess, repetitions);
+    compare_narf(target, pcl_target, std::min(repetitions, 3));
     compare_planes(target, pcl_target, std::min(repetitions, 3));
     compare_whole(target_path, source_path, std::min(repetitions, 3));
 }

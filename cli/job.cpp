@@ -15,6 +15,7 @@
 #include "roomscribe/core/error.hpp"
 #include "roomscribe/geometry/bounding_box.hpp"
 #include "roomscribe/io/point_cloud_io.hpp"
+#include "roomscribe/io/poses_io.hpp"
 #include "roomscribe/pipeline/scoring.hpp"
 #include "roomscribe/pipeline/truth_folder.hpp"
 #include "roomscribe/pipeline/workspace.hpp"
@@ -122,6 +123,23 @@ std::vector<Scan> load_scans(std::span<const std::string> paths, const Context& 
         require_usable(path, scans.back().cloud);
     }
     return scans;
+}
+
+std::vector<std::optional<Transform>> load_poses(const JobOptions& options,
+                                                 const Context& context) {
+    std::vector<std::optional<Transform>> poses;
+    if (options.pose_files.empty()) return poses;
+    for (const std::string& path : options.pose_files) {
+        const auto more = read_poses(path, context);
+        poses.insert(poses.end(), more.begin(), more.end());
+    }
+    if (poses.size() != options.inputs.size()) {
+        throw IoError(
+            options.pose_files.back(), "poses", {},
+            fmt::format("there are {} poses for {} scans", poses.size(), options.inputs.size()),
+            "give one pose per scan, in the order of the scans");
+    }
+    return poses;
 }
 
 ExitCode run_job(std::string_view verb, const JobOptions& options, const std::atomic<bool>& cancel,

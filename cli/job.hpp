@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -24,6 +25,10 @@ Context make_context(const JobOptions& options, const std::atomic<bool>& cancel,
 /// Reads all scans. Throws IoError if one cannot be read, or holds too few points, or points all in
 /// one place, so that nothing can be found in it.
 std::vector<Scan> load_scans(std::span<const std::string> paths, const Context& context);
+
+/// The poses of --poses, one entry per scan; none if no file was given. Throws IoError for a file
+/// that cannot be read or another number of poses.
+std::vector<std::optional<Transform>> load_poses(const JobOptions& options, const Context& context);
 
 /// What a job computes from its scans.
 using Work = std::function<Reconstruction(

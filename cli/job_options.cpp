@@ -39,6 +39,14 @@ void add_scans(CLI::App& verb, JobOptions& options) {
         ->required();
 }
 
+void add_poses(CLI::App& verb, JobOptions& options) {
+    verb.add_option("--poses", options.pose_files,
+                    "Where the scans stand: a line of 12 numbers (KITTI; nan where it is not "
+                    "known) or 8 (TUM) each; may be repeated (UOS has a .pose file per scan)")
+        ->type_name("FILE")
+        ->allow_extra_args(false);
+}
+
 void add_output(CLI::App& verb, JobOptions& options) {
     verb.add_option("-o,--output", options.output, "Folder for the results, made if absent")
         ->type_name("FOLDER")

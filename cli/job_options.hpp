@@ -15,7 +15,7 @@ namespace roomscribe::cli {
 /// What run, register, interpret, explain and demo have in common.
 struct JobOptions {
     std::vector<std::string> inputs;
-    std::vector<std::string> pose_files;  ///< of interpret
+    std::vector<std::string> pose_files;  ///< what is known of where the scans stand
     std::string output;
     std::string truth;  ///< folder; empty where nobody knows
     std::string settings_file;
@@ -32,6 +32,9 @@ void add_job_options(CLI::App& verb, JobOptions& options);
 
 /// Declares the scans, which the verb needs.
 void add_scans(CLI::App& verb, JobOptions& options);
+
+/// Declares --poses, which says where the scans stand.
+void add_poses(CLI::App& verb, JobOptions& options);
 
 /// Declares -o, which the verb needs.
 void add_output(CLI::App& verb, JobOptions& options);

@@ -91,31 +91,47 @@ std::string millimetres(double metres) {
     return fmt::format("{:.1f} mm", 1000.0 * metres);
 }
 
+/// Largest share that the scan has in common with another one.
+std::optional<double> overlap_of(const Reconstruction& reconstruction, std::size_t scan) {
+    const auto& registration = reconstruction.registration;
+    if (!registration || scan >= registration->overlaps.size()) return std::nullopt;
+    return registration->overlaps[scan];
+}
+
+std::string place_of(const Reconstruction& reconstruction, std::size_t scan) {
+    if (!is_placed(reconstruction, scan)) return "no";
+    const auto& registration = reconstruction.registration;
+    const bool is_doubtful =
+        registration && scan < registration->is_doubtful.size() && registration->is_doubtful[scan];
+    return is_doubtful ? "in doubt" : "yes";
+}
+
 template <typename Format>
 std::string or_dash(const std::optional<double>& value, Format format) {
     return value ? format(*value) : "-";
 }
 
 std::string scan_table(const Reconstruction& reconstruction) {
-    TextTable table("lrlr");
-    table.add_row({"scan", "points", "placed", "residual"});
+    TextTable table("lrlrr");
+    table.add_row({"scan", "points", "placed", "residual", "overlap"});
     for (std::size_t i = 0; i < reconstruction.map.sections.size(); ++i) {
         const MapSection& section = reconstruction.map.sections[i];
-        table.add_row({section.name, std::to_string(section.count),
-                       is_placed(reconstruction, i) ? "yes" : "no",
-                       or_dash(residual_of(reconstruction, i), millimetres)});
+        table.add_row({section.name, std::to_string(section.count), place_of(reconstruction, i),
+                       or_dash(residual_of(reconstruction, i), millimetres),
+                       or_dash(overlap_of(reconstruction, i), percent)});
     }
     return table.to_text();
 }
 
 std::string link_table(const Reconstruction& reconstruction) {
-    TextTable table("llrrr");
-    table.add_row({"link", "verdict", "overlap", "RMSE", "inliers"});
+    TextTable table("llrlrrr");
+    table.add_row({"link", "verdict", "probability", "loops", "overlap", "RMSE", "inliers"});
     const auto& sections = reconstruction.map.sections;
     for (const RegistrationLink& link : reconstruction.registration->links) {
         table.add_row(
             {fmt::format("{} -> {}", sections[link.source].name, sections[link.target].name),
-             std::string(link_verdict_name(link.verdict)), percent(link.overlap),
+             std::string(link_verdict_name(link.verdict)), percent(link.probability),
+             std::string(loop_check_name(link.loops)), percent(link.overlap),
              millimetres(link.rmse), std::to_string(link.inliers)});
     }
     return table.to_text();
@@ -178,6 +194,8 @@ Json links_to_json(const Registration& registration) {
         links.push_back({{"source", link.source},
                          {"target", link.target},
                          {"verdict", link_verdict_name(link.verdict)},
+                         {"probability", link.probability},
+                         {"loops", loop_check_name(link.loops)},
                          {"overlap", link.overlap},
                          {"rmse", link.rmse},
                          {"inliers", link.inliers}});
@@ -214,6 +232,11 @@ std::string result_tables(const Reconstruction& reconstruction, const JobSummary
     std::string text = scan_table(reconstruction);
     if (reconstruction.registration && !reconstruction.registration->links.empty()) {
         text += fmt::format("\n{}", link_table(reconstruction));
+    }
+    if (reconstruction.registration && reconstruction.registration->components.size() > 1) {
+        text += fmt::format(
+            "\nthe scans fall into {} sets that no link joins; one of them is the map\n",
+            reconstruction.registration->components.size());
     }
     if (is_interpreted(reconstruction)) {
         text +=

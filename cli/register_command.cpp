@@ -11,15 +11,18 @@ void add_register_command(CLI::App& program, Action& action) {
     const auto options = std::make_shared<JobOptions>();
     CLI::App& verb = *program.add_subcommand("register", "Scans -> poses and one map");
     add_scans(verb, *options);
+    add_poses(verb, *options);
     add_output(verb, *options);
     add_truth(verb, *options);
     add_job_options(verb, *options);
     verb.callback([options, &action] {
         action = [options](const std::atomic<bool>& cancel) {
-            return run_job(
-                "register", *options, cancel,
-                [](std::vector<Scan>& scans, const PipelineSettings& settings,
-                   const Context& context) { return register_to_map(scans, settings, context); });
+            return run_job("register", *options, cancel,
+                           [&options](std::vector<Scan>& scans, const PipelineSettings& settings,
+                                      const Context& context) {
+                               return register_to_map(scans, settings, context,
+                                                      load_poses(*options, context));
+                           });
         };
     });
 }

@@ -11,15 +11,18 @@ void add_run_command(CLI::App& program, Action& action) {
     const auto options = std::make_shared<JobOptions>();
     CLI::App& verb = *program.add_subcommand("run", "Scans -> registered map, labels and model");
     add_scans(verb, *options);
+    add_poses(verb, *options);
     add_output(verb, *options);
     add_truth(verb, *options);
     add_job_options(verb, *options);
     verb.callback([options, &action] {
         action = [options](const std::atomic<bool>& cancel) {
-            return run_job(
-                "run", *options, cancel,
-                [](std::vector<Scan>& scans, const PipelineSettings& settings,
-                   const Context& context) { return reconstruct(scans, settings, context); });
+            return run_job("run", *options, cancel,
+                           [&options](std::vector<Scan>& scans, const PipelineSettings& settings,
+                                      const Context& context) {
+                               return reconstruct(scans, settings, context,
+                                                  load_poses(*options, context));
+                           });
         };
     });
 }

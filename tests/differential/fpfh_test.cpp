@@ -11,8 +11,8 @@
 #include <pcl/search/kdtree.h>
 
 #include "rival_clouds.hpp"
-#include "roomscribe/registration/correspondences.hpp"
-#include "roomscribe/registration/fpfh_descriptor.hpp"
+#include "roomscribe/registration/features/correspondences.hpp"
+#include "roomscribe/registration/features/fpfh_descriptor.hpp"
 
 namespace roomscribe {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "roomscribe/registration/icp.hpp"
+#include "roomscribe/registration/alignment/icp.hpp"
 
 #include <cmath>
 

@@ -127,24 +127,30 @@ Json room_of(const Room& room) {
     return json;
 }
 
-Json link_of(const RegistrationLink& link) {
-    Json covariance = Json::array();
+Json covariance_of(const Eigen::Matrix<double, 6, 6>& covariance) {
+    Json rows = Json::array();
     for (Eigen::Index row = 0; row < 6; ++row) {
         Json numbers_of_row = Json::array();
         for (Eigen::Index column = 0; column < 6; ++column) {
-            numbers_of_row.push_back(significant(link.covariance(row, column)));
+            numbers_of_row.push_back(significant(covariance(row, column)));
         }
-        covariance.push_back(std::move(numbers_of_row));
+        rows.push_back(std::move(numbers_of_row));
     }
+    return rows;
+}
+
+Json link_of(const RegistrationLink& link) {
     Json json = {{"source", link.source},
                  {"target", link.target},
                  {"verdict", link_verdict_name(link.verdict)},
+                 {"probability", length(link.probability)},
+                 {"loops", loop_check_name(link.loops)},
                  {"overlap", length(link.overlap)},
                  {"agreement", length(link.agreement)},
                  {"rmse", length(link.rmse)},
                  {"inliers", link.inliers},
                  {"target_from_source", matrix_of(link.target_from_source)},
-                 {"covariance", std::move(covariance)}};
+                 {"covariance", covariance_of(link.covariance)}};
     Json unobservable = Json::array();
     for (const auto& twist : link.unobservable) {
         unobservable.push_back(numbers(twist, direction_digits));
@@ -220,14 +226,22 @@ std::string registration_to_json(const Registration& registration,
                  {"version", 1},
                  {"units", "m"},
                  {"scans", Json::array()},
+                 {"components", registration.components},
                  {"links", Json::array()}};
     for (std::size_t i = 0; i < scan_names.size(); ++i) {
         const bool has_residual =
             i < registration.residuals.size() && std::isfinite(registration.residuals[i]);
-        json["scans"].push_back(
-            {{"name", scan_names[i]},
-             {"placed", registration.map_from_scan[i].has_value()},
-             {"residual", has_residual ? Json(length(registration.residuals[i])) : Json()}});
+        const bool placed = registration.map_from_scan[i].has_value();
+        Json scan = {{"name", scan_names[i]},
+                     {"placed", placed},
+                     {"residual", has_residual ? Json(length(registration.residuals[i])) : Json()}};
+        if (i < registration.overlaps.size()) scan["overlap"] = length(registration.overlaps[i]);
+        if (i < registration.is_doubtful.size())
+            scan["doubtful"] = bool{registration.is_doubtful[i]};
+        if (placed && i < registration.covariances.size()) {
+            scan["covariance"] = covariance_of(registration.covariances[i]);
+        }
+        json["scans"].push_back(std::move(scan));
     }
     for (const RegistrationLink& link : registration.links)
         json["links"].push_back(link_of(link));

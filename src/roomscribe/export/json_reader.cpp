@@ -238,6 +238,7 @@ void read(const Node& node, RegistrationLink& link) {
     read(node.at("target"), link.target);
     read(node.at("verdict"), link.verdict);
     read(node.at("target_from_source"), link.target_from_source);
+    read_if_present(node, "probability", link.probability);
     read_if_present(node, "overlap", link.overlap);
     read_if_present(node, "agreement", link.agreement);
     read_if_present(node, "rmse", link.rmse);

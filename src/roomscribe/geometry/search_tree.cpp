@@ -95,6 +95,31 @@ class NearestOne {
     float limit_ = std::numeric_limits<float>::max();
 };
 
+/// Keeps the two nearest points within a limit; nanoflann's result-set contract.
+class NearestTwo {
+  public:
+    using DistanceType = float;
+
+    explicit NearestTwo(float max_squared_distance) : limit_(max_squared_distance) {}
+    bool full() const { return true; }
+    std::size_t size() const { return 2; }
+    float worstDist() const { return limit_; }
+    bool addPoint(float squared_distance, std::uint32_t index) {
+        const Neighbor candidate{index, squared_distance};
+        if (!nearer(candidate, neighbors_[1])) return true;
+        neighbors_[1] = candidate;
+        if (nearer(candidate, neighbors_[0])) std::swap(neighbors_[0], neighbors_[1]);
+        limit_ = std::min(limit_, just_above(neighbors_[1].squared_distance));
+        return true;
+    }
+    const std::array<Neighbor, 2>& neighbors() const { return neighbors_; }
+
+  private:
+    static constexpr Neighbor absent{0, std::numeric_limits<float>::infinity()};
+    std::array<Neighbor, 2> neighbors_{absent, absent};
+    float limit_;
+};
+
 /// Collects everything within a radius; nanoflann's result-set contract.
 class RadiusSet {
   public:
@@ -160,6 +185,13 @@ Neighbor SearchTree::nearest(const Eigen::Vector3f& query) const {
     NearestOne set;
     index_->tree.findNeighbors(set, query.data(), nanoflann::SearchParams());
     return set.neighbor();
+}
+
+std::array<Neighbor, 2> SearchTree::nearest_two(const Eigen::Vector3f& query,
+                                                float max_distance) const {
+    NearestTwo set(max_distance * max_distance);
+    if (size() > 0) index_->tree.findNeighbors(set, query.data(), nanoflann::SearchParams());
+    return set.neighbors();
 }
 
 }  // namespace roomscribe

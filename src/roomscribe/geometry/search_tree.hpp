@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -38,6 +39,10 @@ class SearchTree {
 
     /// The nearest point. Precondition: size() > 0.
     Neighbor nearest(const Eigen::Vector3f& query) const;
+
+    /// The two nearest points that are nearer than `max_distance`, nearest first; the squared
+    /// distance of an absent one is infinite.
+    std::array<Neighbor, 2> nearest_two(const Eigen::Vector3f& query, float max_distance) const;
 
   private:
     struct Index;

@@ -15,4 +15,18 @@ std::string_view link_verdict_name(LinkVerdict verdict) {
     return "";
 }
 
+std::string_view loop_check_name(LoopCheck check) {
+    switch (check) {
+        case LoopCheck::none:
+            return "none";
+        case LoopCheck::agrees:
+            return "agrees";
+        case LoopCheck::disagrees:
+            return "disagrees";
+        case LoopCheck::resolved:
+            return "resolved";
+    }
+    return "";
+}
+
 }  // namespace roomscribe

@@ -20,12 +20,24 @@ enum class LinkVerdict : std::uint8_t {
 };
 std::string_view link_verdict_name(LinkVerdict verdict);
 
+/// What the loops through a link say of it: chains of accepted links that lead from its source to
+/// its target another way.
+enum class LoopCheck : std::uint8_t {
+    none,       ///< there is no other way
+    agrees,     ///< the other ways lead to the same pose
+    disagrees,  ///< they lead elsewhere: this is why an accepted link was taken back
+    resolved    ///< the link was ambiguous, and they lead to one of its poses, which it now has
+};
+std::string_view loop_check_name(LoopCheck check);
+
 /// What is known of the relative pose of two scans.
 struct RegistrationLink {
     std::size_t source = 0;
     std::size_t target = 0;
     Transform target_from_source = Transform::Identity();
     LinkVerdict verdict = LinkVerdict::rejected;
+    double probability = 0.0;  ///< that the pose is right, in [0, 1]
+    LoopCheck loops = LoopCheck::none;
     /// Share of both scans' points that lie on or near the other's surface, in [0, 1].
     double overlap = 0.0;
     /// Of the points on which the other scan has a say, the share that it confirms, in [0, 1].
@@ -40,12 +52,23 @@ struct RegistrationLink {
     std::string_view stop_reason;    ///< of the last refinement
 };
 
-/// All scans in one frame: that of the first scan.
+/// All scans in one frame: that of the first scan, or that of known poses that were kept.
 struct Registration {
     /// Per scan; empty for a scan that has no accepted or ambiguous chain of links to the first.
     std::vector<std::optional<Transform>> map_from_scan;
+    /// Per scan, of map_from_scan as in RegistrationLink: its variance along a direction that no
+    /// link holds is that of knowing nothing, 1e6 (rad2 or m2). Zero for a scan that defines the
+    /// frame or has no place.
+    std::vector<Eigen::Matrix<double, 6, 6>> covariances;
+    /// Per scan: it has a place, but only by way of an ambiguous link.
+    std::vector<bool> is_doubtful;
     std::vector<RegistrationLink> links;
+    /// Scans that accepted and ambiguous links join, ascending; the one of the first scan comes
+    /// first, then the others by their first scan. More than one: there are several maps, and only
+    /// the first of them has poses (the others have their links).
+    std::vector<std::vector<std::size_t>> components;
     std::vector<double> residuals;  ///< m per scan: RMSE over its links, NaN where it has none
+    std::vector<double> overlaps;   ///< per scan: the largest over its links, 0 where it has none
 };
 
 }  // namespace roomscribe

@@ -58,13 +58,13 @@ void add_derived_values(std::vector<DerivedValue>& derived, const ScanStatistics
 }  // namespace
 
 Reconstruction register_to_map(std::span<const Scan> scans, const PipelineSettings& settings,
-                               const Context& context) {
+                               const Context& context, KnownPoses known_poses) {
     check_settings(settings);
     Reconstruction result;
     StageTimer timer(result.stage_costs);
 
     ScanRegistration registration =
-        register_scans(scans, seed_of(settings), settings.registration, context);
+        register_scans(scans, known_poses, seed_of(settings), settings.registration, context);
     timer.finish("register");
     result.map = merge_scans(scans, registration.registration.map_from_scan);
     timer.finish("merge");
@@ -111,8 +111,8 @@ void interpret_map(Reconstruction& reconstruction, const PipelineSettings& setti
 }
 
 Reconstruction reconstruct(std::span<const Scan> scans, const PipelineSettings& settings,
-                           const Context& context) {
-    Reconstruction result = register_to_map(scans, settings, context);
+                           const Context& context, KnownPoses known_poses) {
+    Reconstruction result = register_to_map(scans, settings, context, known_poses);
     interpret_map(result, settings, context);
     return result;
 }

@@ -25,10 +25,14 @@ struct Reconstruction {
     std::vector<StageCost> stage_costs;
 };
 
-/// Scans as the scanner left them -> one map (its frame is the first scan's).
-/// Throws InvalidArgument if there are no scans.
+/// Poses that are known of scans: none, or one entry per scan, empty where nothing is known.
+using KnownPoses = std::span<const std::optional<Transform>>;
+
+/// Scans as the scanner left them -> one map. Its frame is the first scan's, or that of known poses
+/// that are kept (registration.known_poses).
+/// Throws InvalidArgument if there are no scans, or another number of known poses.
 Reconstruction register_to_map(std::span<const Scan> scans, const PipelineSettings& settings = {},
-                               const Context& context = {});
+                               const Context& context = {}, KnownPoses known_poses = {});
 
 /// A registered map -> scene and labels, added to a reconstruction that has its map.
 void interpret_map(Reconstruction& reconstruction, const PipelineSettings& settings = {},
@@ -36,6 +40,6 @@ void interpret_map(Reconstruction& reconstruction, const PipelineSettings& setti
 
 /// The whole job: register_to_map, then interpret_map.
 Reconstruction reconstruct(std::span<const Scan> scans, const PipelineSettings& settings = {},
-                           const Context& context = {});
+                           const Context& context = {}, KnownPoses known_poses = {});
 
 }  // namespace roomscribe

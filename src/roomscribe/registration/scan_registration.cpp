@@ -3,12 +3,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <numeric>
+#include <tuple>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "roomscribe/core/error.hpp"
 #include "roomscribe/preprocessing/scan_statistics.hpp"
+#include "roomscribe/registration/graph/link_consistency.hpp"
 
 namespace roomscribe {
 namespace {
@@ -69,113 +72,97 @@ RegistrationScale derive_scale(std::span<const Scan> scans,
     return scale;
 }
 
-/// Registers scan after scan to those that have a place.
-class SequencePlacer {
-  public:
-    SequencePlacer(std::span<const PreparedScan> prepared, const RegistrationScale& scale,
-                   std::uint64_t seed, const ScanRegistrationSettings& settings,
-                   const Context& context)
-        : prepared_(prepared), scale_(scale), seed_(seed), settings_(settings), context_(context) {
-        registration_.map_from_scan.resize(prepared.size());
-        registration_.map_from_scan.front() = Transform::Identity();
-        placed_.push_back(0);
+/// Every scan to the one before (the paper's iterative registration).
+std::vector<RegistrationLink> link_in_sequence(std::span<const PreparedScan> prepared,
+                                               const RegistrationScale& scale, std::uint64_t seed,
+                                               const ScanRegistrationSettings& settings,
+                                               const Context& context) {
+    std::vector<RegistrationLink> links;
+    for (std::size_t scan = 1; scan < prepared.size(); ++scan) {
+        context.throw_if_cancelled();
+        RegistrationLink& link = links.emplace_back(
+            register_pair(prepared[scan], prepared[scan - 1], scale, seed, settings.pair, context));
+        link.source = scan;
+        link.target = scan - 1;
+        context.report_progress(
+            "register", static_cast<double>(scan + 1) / static_cast<double>(prepared.size()));
     }
+    return links;
+}
 
-    Registration run() && {
-        std::vector<std::size_t> waiting;
-        for (std::size_t scan = 1; scan < prepared_.size(); ++scan) {
-            if (!place(scan, placed_)) waiting.push_back(scan);
-            context_.report_progress(
-                "register", static_cast<double>(scan + 1) / static_cast<double>(prepared_.size()));
+/// An order of the scans that neither the order in which they were given nor the frames in which
+/// their points lie decide: by the number of returns, then by size.
+std::vector<std::size_t> canonical_order(std::span<const Scan> scans) {
+    struct Key {
+        std::size_t num_points;
+        double size;
+    };
+    std::vector<Key> keys;
+    keys.reserve(scans.size());
+    for (const Scan& scan : scans) {
+        const std::vector<std::uint32_t> finite = finite_points(scan.cloud);
+        std::vector<Eigen::Vector3f> some;
+        for (std::size_t i = 0; i < finite.size(); i += 1 + finite.size() / 1000) {
+            some.push_back(scan.cloud.positions[finite[i]]);
         }
-        place_waiting(std::move(waiting));
-        add_residuals();
-        return std::move(registration_);
+        keys.push_back({finite.size(), measure_spread(some).covariance.trace()});
     }
+    std::vector<std::size_t> order(scans.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::stable_sort(order.begin(), order.end(), [&keys](std::size_t a, std::size_t b) {
+        return std::tuple(keys[a].num_points, keys[a].size) <
+               std::tuple(keys[b].num_points, keys[b].size);
+    });
+    return order;
+}
 
-  private:
-    /// Tries the partners, latest first, until a link is accepted; an ambiguous one will do if none
-    /// is.
-    bool place(std::size_t scan, std::span<const std::size_t> partners) {
-        std::optional<RegistrationLink> ambiguous;
-        const std::vector<std::size_t> latest_first(partners.rbegin(), partners.rend());
-        for (const std::size_t partner : latest_first) {
-            context_.throw_if_cancelled();
-            RegistrationLink link = register_pair(prepared_[scan], prepared_[partner], scale_,
-                                                  seed_, settings_.pair, context_);
-            link.source = scan;
-            link.target = partner;
-            registration_.links.push_back(link);
-            if (link.verdict == LinkVerdict::accepted) {
-                settle(link);
-                return true;
-            }
-            if (link.verdict == LinkVerdict::ambiguous && !ambiguous) ambiguous = link;
-        }
-        if (ambiguous) settle(*ambiguous);
-        return ambiguous.has_value();
+std::vector<std::optional<KnownPose>> describe_known(
+    std::span<const std::optional<Transform>> world_from_scan, std::span<const std::size_t> order,
+    const ScanRegistrationSettings& settings) {
+    std::vector<std::optional<KnownPose>> known;
+    if (world_from_scan.empty()) return known;
+    known.resize(world_from_scan.size());
+    for (std::size_t i = 0; i < order.size(); ++i) {
+        if (!world_from_scan[order[i]]) continue;
+        known[i] = KnownPose{*world_from_scan[order[i]], settings.known_rotation,
+                             settings.known_translation};
     }
+    return known;
+}
 
-    void settle(const RegistrationLink& link) {
-        registration_.map_from_scan[link.source] =
-            *registration_.map_from_scan[link.target] * link.target_from_source;
-        placed_.push_back(link.source);
+/// Numbers of scans in `order` become those of the scans as they were given.
+void renumber(std::vector<RegistrationLink>& links, std::span<const std::size_t> order) {
+    for (RegistrationLink& link : links) {
+        link.source = order[link.source];
+        link.target = order[link.target];
+        if (link.source < link.target) link = reversed(link);
     }
-
-    /// A scan may touch only scans that were placed after its turn.
-    void place_waiting(std::vector<std::size_t> waiting) {
-        std::size_t num_tried = 1;
-        while (!waiting.empty() && num_tried < placed_.size()) {
-            const std::vector<std::size_t> new_partners(
-                placed_.begin() + static_cast<std::ptrdiff_t>(num_tried), placed_.end());
-            num_tried = placed_.size();
-            std::erase_if(waiting, [&](std::size_t scan) {
-                std::vector<std::size_t> untried;
-                for (const std::size_t partner : new_partners) {
-                    if (!was_tried(scan, partner)) untried.push_back(partner);
-                }
-                return place(scan, untried);
-            });
-        }
-    }
-
-    bool was_tried(std::size_t source, std::size_t target) const {
-        return std::any_of(registration_.links.begin(), registration_.links.end(),
-                           [&](const RegistrationLink& link) {
-                               return link.source == source && link.target == target;
-                           });
-    }
-
-    void add_residuals() {
-        std::vector<double> squares(prepared_.size(), 0.0);
-        std::vector<double> counts(prepared_.size(), 0.0);
-        for (const RegistrationLink& link : registration_.links) {
-            if (link.verdict == LinkVerdict::rejected) continue;
-            const auto inliers = static_cast<double>(link.inliers);
-            for (const std::size_t scan : {link.source, link.target}) {
-                squares[scan] += inliers * link.rmse * link.rmse;
-                counts[scan] += inliers;
-            }
-        }
-        for (std::size_t scan = 0; scan < prepared_.size(); ++scan) {
-            registration_.residuals.push_back(counts[scan] > 0.0
-                                                  ? std::sqrt(squares[scan] / counts[scan])
-                                                  : std::numeric_limits<double>::quiet_NaN());
-        }
-    }
-
-    std::span<const PreparedScan> prepared_;
-    RegistrationScale scale_;
-    std::uint64_t seed_;
-    const ScanRegistrationSettings& settings_;
-    const Context& context_;
-    Registration registration_;
-    std::vector<std::size_t> placed_;
-};
+    std::sort(links.begin(), links.end(), [](const auto& a, const auto& b) {
+        return std::pair(a.source, a.target) < std::pair(b.source, b.target);
+    });
+}
 
 }  // namespace
 
 void ScanRegistrationSettings::visit(SettingVisitor& visitor) {
+    visitor(sequence, {.name = "sequence",
+                       .unit = "",
+                       .doc = "Each scan to the one before (the paper's), or a graph of scans in "
+                              "any order."});
+    visitor(known_poses, {.name = "known_poses",
+                          .unit = "",
+                          .doc = "What becomes of poses that are given: they pull like links, or "
+                                 "they are kept."});
+    visitor(known_translation, {.name = "known_translation",
+                                .unit = "m",
+                                .min = 1e-6,
+                                .max = 1e6,
+                                .doc = "Standard deviation of given poses."});
+    visitor(known_rotation, {.name = "known_rotation",
+                             .unit = "rad",
+                             .min = 1e-6,
+                             .max = 10.0,
+                             .doc = "The same of their rotation; 0.0873 is 5 degrees."});
     visitor(coarse_voxel, {.name = "coarse_voxel",
                            .unit = "m",
                            .min = 1e-6,
@@ -192,23 +179,51 @@ void ScanRegistrationSettings::visit(SettingVisitor& visitor) {
                           .max = 1e6,
                           .doc = "Radius of the FPFH descriptors."});
     visitor.group("pair", pair);
+    visitor.group("graph", graph);
+    visitor.group("optimization", optimization);
+}
+
+ScanRegistration register_scans(std::span<const Scan> scans,
+                                std::span<const std::optional<Transform>> known_world_from_scan,
+                                std::uint64_t seed, const ScanRegistrationSettings& settings,
+                                const Context& context) {
+    check_settings(settings);
+    if (scans.empty()) throw InvalidArgument("scans", "0", "at least one scan");
+    if (!known_world_from_scan.empty() && known_world_from_scan.size() != scans.size()) {
+        throw InvalidArgument("known_world_from_scan",
+                              fmt::format("{} poses", known_world_from_scan.size()),
+                              fmt::format("one per scan, {}, or none", scans.size()));
+    }
+    ScanRegistration result;
+    const RegistrationScale scale = derive_scale(scans, settings, result.derived_values, context);
+    const bool is_graph = settings.sequence == ScanSequence::graph;
+    std::vector<std::size_t> as_given(scans.size());
+    std::iota(as_given.begin(), as_given.end(), std::size_t{0});
+    const std::vector<std::size_t> order = is_graph ? canonical_order(scans) : as_given;
+    std::vector<PreparedScan> prepared;
+    prepared.reserve(scans.size());
+    for (const std::size_t scan : order) {
+        prepared.push_back(prepare_scan(scans[scan], scale, context));
+        context.report_progress(
+            "prepare", static_cast<double>(prepared.size()) / static_cast<double>(scans.size()));
+    }
+    std::vector<RegistrationLink> links;
+    if (is_graph) {
+        links = link_scans(prepared, describe_known(known_world_from_scan, order, settings), scale,
+                           seed, settings.pair, settings.graph, context);
+        renumber(links, order);
+    } else {
+        links = link_in_sequence(prepared, scale, seed, settings, context);
+    }
+    result.registration = place_scans(
+        std::move(links), scans.size(), describe_known(known_world_from_scan, as_given, settings),
+        settings.known_poses, scale.noise, settings.optimization, context);
+    return result;
 }
 
 ScanRegistration register_scans(std::span<const Scan> scans, std::uint64_t seed,
                                 const ScanRegistrationSettings& settings, const Context& context) {
-    check_settings(settings);
-    if (scans.empty()) throw InvalidArgument("scans", "0", "at least one scan");
-    ScanRegistration result;
-    const RegistrationScale scale = derive_scale(scans, settings, result.derived_values, context);
-    std::vector<PreparedScan> prepared;
-    prepared.reserve(scans.size());
-    for (const Scan& scan : scans) {
-        prepared.push_back(prepare_scan(scan, scale, context));
-        context.report_progress(
-            "prepare", static_cast<double>(prepared.size()) / static_cast<double>(scans.size()));
-    }
-    result.registration = SequencePlacer(prepared, scale, seed, settings, context).run();
-    return result;
+    return register_scans(scans, {}, seed, settings, context);
 }
 
 }  // namespace roomscribe

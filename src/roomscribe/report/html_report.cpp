@@ -133,10 +133,19 @@ std::vector<std::string> things_to_check(const Reconstruction& reconstruction) {
     std::vector<std::string> checks;
     if (reconstruction.registration) {
         const Registration& registration = *reconstruction.registration;
+        if (registration.components.size() > 1) {
+            checks.push_back(fmt::format(
+                "The scans fall into {} sets that no link joins: only one of them is the map.",
+                registration.components.size()));
+        }
         for (std::size_t i = 0; i < registration.map_from_scan.size(); ++i) {
-            if (registration.map_from_scan[i]) continue;
-            checks.push_back(
-                fmt::format("Scan {} has no place in the map.", scan_name(reconstruction.map, i)));
+            const std::string name = scan_name(reconstruction.map, i);
+            if (!registration.map_from_scan[i]) {
+                checks.push_back(fmt::format("Scan {} has no place in the map.", name));
+            } else if (i < registration.is_doubtful.size() && registration.is_doubtful[i]) {
+                checks.push_back(fmt::format(
+                    "Scan {} is held by ambiguous links alone: its place is a guess.", name));
+            }
         }
         for (const RegistrationLink& link : registration.links) {
             const std::string pair =

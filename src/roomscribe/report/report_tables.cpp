@@ -171,6 +171,8 @@ std::string links_table(const Reconstruction& reconstruction) {
         {{"Source", false},
          {"Target", false},
          {"Verdict", false},
+         {"Probability (%)", true},
+         {"Loops", false},
          {"Overlap (%)", true},
          {"Agreement (%)", true},
          {"RMSE (mm)", true},
@@ -190,6 +192,8 @@ std::string links_table(const Reconstruction& reconstruction) {
         put_scan(link.source);
         put_scan(link.target);
         table.html(verdict_mark(link_verdict_name(link.verdict)));
+        table.number(100.0 * link.probability, 1);
+        table.text(loop_check_name(link.loops));
         table.number(100.0 * link.overlap, 1);
         table.number(100.0 * link.agreement, 1);
         table.number(1000.0 * link.rmse, 2);
@@ -216,7 +220,8 @@ std::string poses_table(const Reconstruction& reconstruction) {
          {"Yaw (\u00b0)", true},
          {"Pitch (\u00b0)", true},
          {"Roll (\u00b0)", true},
-         {"Residual (mm)", true}});
+         {"Residual (mm)", true},
+         {"Overlap (%)", true}});
     for (std::size_t i = 0; i < registration.map_from_scan.size(); ++i) {
         const std::optional<Transform>& pose = registration.map_from_scan[i];
         const bool has_section = i < reconstruction.map.sections.size();
@@ -240,6 +245,10 @@ std::string poses_table(const Reconstruction& reconstruction) {
         const bool has_residual = i < registration.residuals.size();
         table.number(
             has_residual ? std::optional(1000.0 * registration.residuals[i]) : std::nullopt, 2);
+        table.number(i < registration.overlaps.size()
+                         ? std::optional(100.0 * registration.overlaps[i])
+                         : std::nullopt,
+                     1);
     }
     return table.finish();
 }

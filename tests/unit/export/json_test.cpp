@@ -266,19 +266,30 @@ TEST(RegistrationToJson, ListsScansAndLinks) {
     RegistrationLink link;
     link.source = 1;
     link.verdict = LinkVerdict::ambiguous;
+    link.probability = 0.875;
+    link.loops = LoopCheck::agrees;
     link.overlap = 0.7130000001;
     link.inliers = 42;
     link.covariance(0, 0) = 1.23456789e-9;
     link.unobservable.emplace_back(Eigen::Matrix<double, 6, 1>::Unit(3));
     link.stop_reason = "small_step";
     registration.links = {link};
+    registration.components = {{0}, {1}};
+    registration.overlaps = {0.25, 0.0};
+    registration.is_doubtful = {true, false};
+    registration.covariances.assign(2, 0.5 * Eigen::Matrix<double, 6, 6>::Identity());
     const std::vector<std::string> names{"a.pcd", "b.pcd"};
     const std::string text = registration_to_json(registration, names);
     EXPECT_THAT(text, HasSubstr("\"name\": \"b.pcd\",\n      \"placed\": false,\n      "
                                 "\"residual\": null"));
     EXPECT_THAT(text, HasSubstr("\"residual\": 0.0121"));
     EXPECT_THAT(text, HasSubstr("\"verdict\": \"ambiguous\""));
+    EXPECT_THAT(text, HasSubstr("\"probability\": 0.875,\n      \"loops\": \"agrees\""));
     EXPECT_THAT(text, HasSubstr("\"overlap\": 0.713,"));
+    EXPECT_THAT(text,
+                HasSubstr("\"overlap\": 0.25,\n      \"doubtful\": true,\n      \"covariance\": "
+                          "[\n        [0.5, 0.0, 0.0, 0.0, 0.0, 0.0]"));
+    EXPECT_THAT(text, HasSubstr("\"components\": [\n    [0],\n    [1]\n  ]"));
     EXPECT_THAT(text, HasSubstr("[1.23457e-09, 0.0, 0.0, 0.0, 0.0, 0.0]"));
     EXPECT_THAT(text, HasSubstr("[0.0, 0.0, 0.0, 1.0, 0.0, 0.0]"));
     EXPECT_THAT(text, HasSubstr("\"stop_reason\": \"small_step\""));
@@ -293,6 +304,7 @@ TEST(LinksFromJson, GivesBackWhatWasWritten) {
     link.source = 1;
     link.target_from_source.translation() = Eigen::Vector3d(1, 2, 3);
     link.verdict = LinkVerdict::ambiguous;
+    link.probability = 0.625;
     link.overlap = 0.5;
     link.agreement = 0.75;
     link.rmse = 0.01;
@@ -308,6 +320,7 @@ TEST(LinksFromJson, GivesBackWhatWasWritten) {
     EXPECT_EQ(links[0].target, 0U);
     EXPECT_TRUE(links[0].target_from_source.isApprox(link.target_from_source));
     EXPECT_EQ(links[0].verdict, LinkVerdict::ambiguous);
+    EXPECT_EQ(links[0].probability, 0.625);
     EXPECT_EQ(links[0].overlap, 0.5);
     EXPECT_EQ(links[0].agreement, 0.75);
     EXPECT_EQ(links[0].rmse, 0.01);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "roomscribe/registration/correspondence_rejection.hpp"
+#include "roomscribe/registration/features/correspondence_rejection.hpp"
 
 #include <algorithm>
 

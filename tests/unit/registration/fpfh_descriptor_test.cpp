@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "roomscribe/registration/fpfh_descriptor.hpp"
+#include "roomscribe/registration/features/fpfh_descriptor.hpp"
 
 #include <cmath>
 #include <numbers>

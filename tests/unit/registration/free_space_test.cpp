@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "roomscribe/registration/free_space.hpp"
+#include "roomscribe/registration/pair/free_space.hpp"
 
 #include <cmath>
 

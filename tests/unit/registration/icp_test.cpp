@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: MIT
-#include "roomscribe/registration/icp.hpp"
+#include "roomscribe/registration/alignment/icp.hpp"
 
+#include <array>
 #include <cmath>
 
 #include <gtest/gtest.h>
 
 #include "roomscribe/core/error.hpp"
+#include "roomscribe/registration/alignment/closest_points.hpp"
+#include "roomscribe/registration/alignment/robust_kernel.hpp"
 #include "support/contexts.hpp"
 #include "support/matchers.hpp"
 #include "support/shapes.hpp"
@@ -14,6 +17,9 @@ namespace roomscribe {
 namespace {
 
 using test::TransformNear;
+
+constexpr std::array all_methods{IcpMethod::point_to_point, IcpMethod::point_to_plane,
+                                 IcpMethod::generalized};
 
 /// Points with exact normals, and a tree.
 struct Surface {
@@ -67,7 +73,7 @@ Surface moved(const Surface& surface, const Transform& motion) {
 TEST(AlignIcp, RecoversAMotionExactlyFromTheSamePoints) {
     Random random(1);
     const Surface target = corner_of_room(random);
-    for (const IcpMethod method : {IcpMethod::point_to_point, IcpMethod::point_to_plane}) {
+    for (const IcpMethod method : all_methods) {
         const Transform motion = test::small_transform(random, radians(1.0), 0.02);
         const Surface source = moved(target, motion.inverse());
         const IcpResult result =
@@ -212,6 +218,9 @@ TEST(AlignIcp, WantsNormalsForPointToPlane) {
     const Surface target = corner_of_room(random);
     EXPECT_THROW(align_icp(target.as_source(), target.without_normals(), Transform::Identity()),
                  InvalidArgument);
+    EXPECT_THROW(align_icp({target.positions, {}}, target.as_target(), Transform::Identity(),
+                           {.method = IcpMethod::generalized}),
+                 InvalidArgument);
     EXPECT_THROW(align_icp(target.as_source(), target.as_target(), Transform::Identity(),
                            {.max_iterations = 0}),
                  InvalidArgument);
@@ -221,10 +230,14 @@ TEST(AlignIcp, HasTheSameBitsOnAnyThreads) {
     Random random(9);
     const Surface target = corner_of_room(random);
     const Surface source = moved(corner_of_room(random), test::small_transform(random, 0.05, 0.1));
-    for (const IcpMethod method : {IcpMethod::point_to_point, IcpMethod::point_to_plane}) {
+    for (const IcpMethod method : all_methods) {
         const auto align = [&](int num_threads) {
             return align_icp(source.as_source(), target.as_target(), Transform::Identity(),
-                             {.method = method}, test::with_threads(num_threads));
+                             {.method = method,
+                              .kernel = RobustKernel::tukey,
+                              .trimmed_share = 0.1,
+                              .reach_shrink = 0.8},
+                             test::with_threads(num_threads));
         };
         const IcpResult one = align(1);
         for (const int num_threads : {2, 7}) {
@@ -232,6 +245,109 @@ TEST(AlignIcp, HasTheSameBitsOnAnyThreads) {
             EXPECT_EQ(many.target_from_source.matrix(), one.target_from_source.matrix());
             EXPECT_EQ(many.errors, one.errors);
             EXPECT_EQ(many.information, one.information);
+        }
+    }
+}
+
+/// A corner whose source has 15 % of its points 0.1 m in front of the surface: things that moved.
+struct Cluttered {
+    Surface target;
+    Surface source;
+    Transform motion;
+
+    explicit Cluttered(Random& random)
+        : target(corner_of_room(random)),
+          motion(test::small_transform(random, radians(2.0), 0.05)) {
+        Surface other = corner_of_room(random);
+        test::add_noise(other.positions, 0.003, random);
+        for (std::size_t i = 0; i < other.positions.size(); ++i) {
+            if (i % 20 < 3) other.positions[i] += 0.1F * other.normals[i];
+        }
+        source = moved(other, motion.inverse());
+    }
+    double error(const IcpSettings& settings) const {
+        const IcpResult result =
+            align_icp(source.as_source(), target.as_target(), Transform::Identity(), settings);
+        return (result.target_from_source * motion.inverse()).translation().norm();
+    }
+};
+
+TEST(AlignIcp, KernelsAndTrimmingLeaveOutWhatMoved) {
+    Random random(10);
+    const Cluttered scene(random);
+    const double plain = scene.error({.max_correspondence_distance = 0.3});
+    EXPECT_GT(plain, 0.015);
+    for (const RobustKernel kernel :
+         {RobustKernel::huber, RobustKernel::tukey, RobustKernel::cauchy}) {
+        EXPECT_LT(scene.error({.max_correspondence_distance = 0.3, .kernel = kernel}), 0.3 * plain);
+    }
+    EXPECT_LT(scene.error({.max_correspondence_distance = 0.3,
+                           .kernel = RobustKernel::huber,
+                           .kernel_scale = 0.003}),
+              0.3 * plain);
+    EXPECT_LT(scene.error({.max_correspondence_distance = 0.3, .kernel = RobustKernel::tukey}),
+              1e-3);
+    EXPECT_LT(scene.error({.max_correspondence_distance = 0.3, .trimmed_share = 0.2}), 1e-3);
+}
+
+TEST(AlignIcp, PointsThatAreLessSureCountLess) {
+    Random random(11);
+    const Cluttered scene(random);
+    std::vector<float> deviations(scene.source.positions.size(), 0.003F);
+    for (std::size_t i = 0; i < deviations.size(); ++i) {
+        if (i % 20 < 3) deviations[i] = 0.1F;
+    }
+    const auto error = [&](std::span<const float> source_deviations) {
+        const IcpSource source{scene.source.positions, scene.source.normals, source_deviations};
+        const IcpResult result = align_icp(source, scene.target.as_target(), Transform::Identity(),
+                                           {.max_correspondence_distance = 0.3});
+        return (result.target_from_source * scene.motion.inverse()).translation().norm();
+    };
+    EXPECT_LT(error(deviations), 0.1 * error({}));
+}
+
+TEST(AlignIcp, ReachShrinksToTheDistancesOfThePairs) {
+    Random random(12);
+    const Surface target = corner_of_room(random);
+    const Surface source = moved(corner_of_room(random), test::small_transform(random, 0.05, 0.1));
+    const IcpResult fixed =
+        align_icp(source.as_source(), target.as_target(), Transform::Identity());
+    EXPECT_EQ(fixed.reach, 1.0);
+    const IcpResult shrunk = align_icp(source.as_source(), target.as_target(),
+                                       Transform::Identity(), {.reach_shrink = 0.7});
+    // 4000 points on some 10 m2 are about 2.5 cm from their nearest.
+    EXPECT_LT(shrunk.reach, 0.2);
+    EXPECT_GT(shrunk.reach, 0.05);
+    EXPECT_EQ(shrunk.stop, IcpStop::converged);
+    EXPECT_THAT(shrunk.target_from_source, TransformNear(fixed.target_from_source, 1e-3, 1e-3));
+}
+
+TEST(RobustWeight, FallsAsTheKernelSays) {
+    for (const double x : {0.0, 1.0, -2.0, 10.0}) {
+        EXPECT_EQ(robust_weight(RobustKernel::none, x), 1.0);
+    }
+    EXPECT_EQ(robust_weight(RobustKernel::huber, -1.3), 1.0);
+    EXPECT_DOUBLE_EQ(robust_weight(RobustKernel::huber, 2.69), 0.5);
+    EXPECT_DOUBLE_EQ(robust_weight(RobustKernel::cauchy, 2.385), 0.5);
+    EXPECT_DOUBLE_EQ(robust_weight(RobustKernel::tukey, 4.685 * std::sqrt(0.5)), 0.25);
+    EXPECT_EQ(robust_weight(RobustKernel::tukey, 5.0), 0.0);
+}
+
+TEST(ClosestPoints, AnswersAsASearchWouldHoweverTheQueriesMove) {
+    Random random(13);
+    const std::vector<Eigen::Vector3f> points = test::random_points(random, 2000);
+    const SearchTree tree(points);
+    std::vector<Eigen::Vector3f> queries = test::random_points(random, 500);
+    ClosestPoints closest(points, tree, queries.size());
+    for (const float step : {0.0F, 0.001F, 0.01F, 0.0005F, 0.1F, 0.002F, 0.002F}) {
+        for (const float reach : {0.05F, 0.08F, 0.04F}) {
+            for (std::size_t i = 0; i < queries.size(); ++i) {
+                queries[i] += step * test::random_direction(random).cast<float>();
+                const Neighbor nearest = tree.nearest(queries[i]);
+                const bool within = nearest.squared_distance <= reach * reach;
+                EXPECT_EQ(closest.find(i, queries[i], reach),
+                          within ? nearest.index : ClosestPoints::none);
+            }
         }
     }
 }

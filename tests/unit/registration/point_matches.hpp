@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "roomscribe/registration/correspondence_rejection.hpp"
+#include "roomscribe/registration/features/correspondence_rejection.hpp"
 #include "support/shapes.hpp"
 
 namespace roomscribe::test {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "roomscribe/registration/pose_candidates.hpp"
+#include "roomscribe/registration/pair/pose_candidates.hpp"
 
 #include <algorithm>
 

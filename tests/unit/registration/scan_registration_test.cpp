@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "roomscribe/registration/scan_registration.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <optional>
+#include <span>
 #include <string>
 
 #include <gmock/gmock.h>
@@ -92,6 +95,92 @@ TEST(RegisterScans, ASequenceComesTogetherAndAStrangerStaysOut) {
     ASSERT_TRUE(registration.map_from_scan[2]);
     EXPECT_THAT(*registration.map_from_scan[2],
                 TransformNear(poses[0].inverse() * poses[2], 0.01, radians(0.2)));
+}
+
+/// Four scans of the L-shaped room and where they were taken.
+struct ScannedRoom {
+    std::vector<Scan> scans;
+    std::vector<Transform> poses;
+};
+
+ScannedRoom scan_room_four_times(std::uint64_t seed) {
+    Random random(seed);
+    const std::vector<Vector3d> places = {
+        {1.3, 2.2, 1.4}, {3.6, 2.0, 1.6}, {1.2, 3.4, 1.3}, {2.4, 1.6, 1.5}};
+    ScannedRoom room;
+    for (const Vector3d& place : places) {
+        room.poses.push_back(any_turn_at(random, place));
+        room.scans.push_back(
+            test::simulate_scan(test::l_shaped_room(), room.poses.back(), random.next(), 4.0));
+    }
+    return room;
+}
+
+TEST(RegisterScans, TheOrderOfTheScansDecidesTheFrameAlone) {
+    const ScannedRoom room = scan_room_four_times(11);
+    const Registration as_taken = register_scans(room.scans, 1).registration;
+    const std::vector<std::size_t> order = {2, 0, 3, 1};
+    std::vector<Scan> shuffled;
+    for (const std::size_t scan : order)
+        shuffled.push_back(room.scans[scan]);
+    const Registration other = register_scans(shuffled, 1).registration;
+
+    EXPECT_EQ(as_taken.components, (std::vector<std::vector<std::size_t>>{{0, 1, 2, 3}}));
+    ASSERT_EQ(other.links.size(), as_taken.links.size());
+    EXPECT_GT(as_taken.links.size(), 3U);  // loops are closed
+    for (std::size_t i = 0; i < order.size(); ++i) {
+        ASSERT_TRUE(as_taken.map_from_scan[order[i]]);
+        ASSERT_TRUE(other.map_from_scan[i]);
+        const Transform expected =
+            as_taken.map_from_scan[order[0]]->inverse() * *as_taken.map_from_scan[order[i]];
+        EXPECT_THAT(*other.map_from_scan[i], TransformNear(expected, 1e-5, 1e-5));
+        EXPECT_THAT(*as_taken.map_from_scan[i],
+                    TransformNear(room.poses[0].inverse() * room.poses[i], 0.01, radians(0.2)));
+    }
+    for (const RegistrationLink& link : other.links) {
+        const std::size_t source = std::max(order[link.source], order[link.target]);
+        const std::size_t target = std::min(order[link.source], order[link.target]);
+        const auto same =
+            std::find_if(as_taken.links.begin(), as_taken.links.end(),
+                         [&](const auto& l) { return l.source == source && l.target == target; });
+        ASSERT_NE(same, as_taken.links.end());
+        EXPECT_EQ(same->verdict, link.verdict);
+    }
+}
+
+TEST(RegisterScans, ASequenceLinksEachScanToTheOneBefore) {
+    const ScannedRoom room = scan_room_four_times(12);
+    ScanRegistrationSettings settings;
+    settings.sequence = ScanSequence::sequential;
+    const Registration registration = register_scans(room.scans, 1, settings).registration;
+    ASSERT_EQ(registration.links.size(), 3U);
+    for (std::size_t i = 0; i < 3; ++i) {
+        EXPECT_EQ(registration.links[i].source, i + 1);
+        EXPECT_EQ(registration.links[i].target, i);
+    }
+}
+
+TEST(RegisterScans, KnownPosesAreAGuessOrKept) {
+    ScannedRoom room = scan_room_four_times(13);
+    Random random(1);
+    std::vector<std::optional<Transform>> known;
+    for (const Transform& pose : room.poses)
+        known.emplace_back(test::small_transform(random, 0.02, 0.1) * pose);
+    known[3].reset();
+    ScanRegistrationSettings settings;
+    const Registration guessed = register_scans(room.scans, known, 1, settings).registration;
+    settings.known_poses = KnownPoseUse::fixed;
+    const Registration kept = register_scans(room.scans, known, 1, settings).registration;
+    for (std::size_t i = 0; i < room.scans.size(); ++i) {
+        ASSERT_TRUE(guessed.map_from_scan[i]);
+        EXPECT_THAT(*guessed.map_from_scan[i],
+                    TransformNear(room.poses[0].inverse() * room.poses[i], 0.01, radians(0.2)));
+        ASSERT_TRUE(kept.map_from_scan[i]);
+        if (known[i]) {
+            EXPECT_THAT(*kept.map_from_scan[i], TransformNear(*known[i], 1e-9, 1e-9));
+        }
+    }
+    EXPECT_THROW(register_scans(room.scans, std::span(known).first(2), 1), InvalidArgument);
 }
 
 TEST(RegisterScans, HasTheSameBitsOnAnyThreads) {

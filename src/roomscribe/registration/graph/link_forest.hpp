@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "roomscribe/geometry/transform.hpp"
+#include "roomscribe/model/registration_result.hpp"
+
+namespace roomscribe {
+
+/// Scans as links join them, each with its pose in the frame of its set's first scan.
+struct LinkForest {
+    std::vector<std::size_t> set_of;       ///< per scan: the lowest scan of its set
+    std::vector<Transform> set_from_scan;  ///< per scan
+    std::vector<bool> is_doubtful;         ///< per scan: joined to its set's first by way of an
+                                           ///< ambiguous link
+    std::vector<std::size_t> used_links;   ///< numbers of the links that join, ascending
+};
+
+/// Joins scans by the likeliest links, all accepted ones before any ambiguous one: a spanning tree
+/// per connected set. Ambiguous links take part if `with_ambiguous`.
+LinkForest grow_forest(std::span<const RegistrationLink> links, std::size_t num_scans,
+                       bool with_ambiguous);
+
+}  // namespace roomscribe

@@ -1,0 +1,301 @@
+// SPDX-License-Identifier: MIT
+#include "roomscribe/registration/graph/scan_graph.hpp"
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+#include "roomscribe/registration/graph/link_consistency.hpp"
+#include "roomscribe/registration/graph/link_forest.hpp"
+#include "roomscribe/registration/graph/pair_proposal.hpp"
+#include "roomscribe/registration/graph/pose_graph.hpp"
+#include "roomscribe/registration/pair/pair_registration.hpp"
+#include "roomscribe/registration/pair/pose_support.hpp"
+
+namespace roomscribe {
+namespace {
+
+using Vector6d = Eigen::Matrix<double, 6, 1>;
+
+ChainedPose known_chain(const KnownPose& known) {
+    Vector6d variances;
+    variances.head<3>().setConstant(known.rotation_deviation * known.rotation_deviation);
+    variances.tail<3>().setConstant(known.translation_deviation * known.translation_deviation);
+    Transform to_scan = Transform::Identity();
+    to_scan.translation() = known.world_from_scan.translation();
+    const auto carry = adjoint(to_scan);
+    return {known.world_from_scan, carry * variances.asDiagonal() * carry.transpose(), {}};
+}
+
+/// Two scans as a guess puts them.
+struct NearbyPair {
+    std::size_t source = 0;
+    std::size_t target = 0;
+    Transform target_from_source = Transform::Identity();
+    double distance = 0.0;  ///< m, between the middles of the scans
+};
+
+class LinkFinder {
+  public:
+    LinkFinder(std::span<const PreparedScan> scans, std::span<const std::optional<KnownPose>> known,
+               const RegistrationScale& scale, std::uint64_t seed,
+               const PairRegistrationSettings& pair, const ScanGraphSettings& settings,
+               const Context& context)
+        : scans_(scans),
+          known_(known),
+          scale_(scale),
+          seed_(seed),
+          pair_(pair),
+          settings_(settings),
+          context_(context),
+          tolerance_(link_tolerance(scale)) {}
+
+    std::vector<RegistrationLink> run() && {
+        link_known_neighbors();
+        link_promising_pairs();
+        settle_by_known_poses();
+        close_loops();
+        check_loops(links_, tolerance_);
+        settle_by_surroundings();
+        check_loops(links_, tolerance_);
+        std::sort(links_.begin(), links_.end(), [](const auto& a, const auto& b) {
+            return std::pair(a.source, a.target) < std::pair(b.source, b.target);
+        });
+        context_.report_progress("register", 1.0);
+        return std::move(links_);
+    }
+
+  private:
+    /// The link of a pair, source > target; nullptr if it was not tried.
+    RegistrationLink* find_link(std::size_t source, std::size_t target) {
+        const auto found = std::find_if(links_.begin(), links_.end(), [&](const auto& link) {
+            return link.source == source && link.target == target;
+        });
+        return found == links_.end() ? nullptr : &*found;
+    }
+
+    void register_without_guess(std::size_t source, std::size_t target) {
+        context_.throw_if_cancelled();
+        RegistrationLink link =
+            register_pair(scans_[source], scans_[target], scale_, seed_, pair_, context_);
+        link.source = source;
+        link.target = target;
+        links_.push_back(std::move(link));
+    }
+
+    /// Empty if the scans do not bear the guess out.
+    std::optional<RegistrationLink> register_with_guess(const NearbyPair& pair) const {
+        context_.throw_if_cancelled();
+        RegistrationLink link =
+            register_pair_from(scans_[pair.source], scans_[pair.target], pair.target_from_source,
+                               scale_, pair_, context_);
+        link.source = pair.source;
+        link.target = pair.target;
+        if (link.verdict != LinkVerdict::accepted) return std::nullopt;
+        return link;
+    }
+
+    bool should_overlap(const NearbyPair& pair) const {
+        return measure_support(scans_[pair.source], scans_[pair.target], pair.target_from_source,
+                               coarse_tolerance(scale_), context_)
+                   .overlap() >= pair_.min_overlap;
+    }
+
+    NearbyPair nearby_pair(std::size_t a, std::size_t b, const Transform& frame_from_a,
+                           const Transform& frame_from_b) const {
+        const std::size_t source = std::max(a, b);
+        const std::size_t target = std::min(a, b);
+        const Transform& from_source = a > b ? frame_from_a : frame_from_b;
+        const Transform& from_target = a > b ? frame_from_b : frame_from_a;
+        return {
+            source, target, from_target.inverse() * from_source,
+            (from_source * scans_[source].spread.mean - from_target * scans_[target].spread.mean)
+                .norm()};
+    }
+
+    /// The nearest pairs, some more than can be linked: not all of them will overlap.
+    static void keep_nearest(std::vector<NearbyPair>& pairs, int count) {
+        std::stable_sort(pairs.begin(), pairs.end(),
+                         [](const auto& a, const auto& b) { return a.distance < b.distance; });
+        pairs.resize(std::min(pairs.size(), 2 * static_cast<std::size_t>(count)));
+    }
+
+    /// The scans that known poses put next to each other.
+    void link_known_neighbors() {
+        for (std::size_t scan = 0; scan < known_.size(); ++scan) {
+            if (!known_[scan]) continue;
+            std::vector<NearbyPair> pairs;
+            for (std::size_t other = 0; other < known_.size(); ++other) {
+                if (other == scan || !known_[other]) continue;
+                pairs.push_back(nearby_pair(scan, other, known_[scan]->world_from_scan,
+                                            known_[other]->world_from_scan));
+            }
+            keep_nearest(pairs, settings_.max_partners);
+            int num_links = 0;
+            for (const NearbyPair& pair : pairs) {
+                if (num_links == settings_.max_partners) break;
+                if (find_link(pair.source, pair.target) != nullptr) {
+                    ++num_links;
+                } else if (should_overlap(pair)) {
+                    ++num_links;
+                    if (auto link = register_with_guess(pair)) {
+                        links_.push_back(std::move(*link));
+                    } else {
+                        register_without_guess(pair.source, pair.target);
+                    }
+                }
+            }
+        }
+    }
+
+    void link_promising_pairs() {
+        const std::vector<ProposedPair> pairs = propose_pairs(
+            scans_, static_cast<std::size_t>(settings_.max_partners), scale_, context_);
+        for (std::size_t i = 0; i < pairs.size(); ++i) {
+            const auto [target, source, promise] = pairs[i];
+            context_.report_progress(
+                "register", 0.7 * static_cast<double>(i) / static_cast<double>(pairs.size()));
+            const LinkForest forest = grow_forest(links_, scans_.size(), false);
+            if (forest.set_of[source] == forest.set_of[target]) continue;
+            if (find_link(source, target) == nullptr) register_without_guess(source, target);
+        }
+    }
+
+    /// Links between scans that are in one set and lie near each other.
+    void close_loops() {
+        const LinkForest forest = grow_forest(links_, scans_.size(), false);
+        for (std::size_t scan = 0; scan < scans_.size(); ++scan) {
+            context_.report_progress("register", 0.7 + 0.2 * static_cast<double>(scan) /
+                                                           static_cast<double>(scans_.size()));
+            std::vector<NearbyPair> pairs;
+            for (std::size_t other = 0; other < scans_.size(); ++other) {
+                if (other == scan || forest.set_of[other] != forest.set_of[scan]) continue;
+                pairs.push_back(nearby_pair(scan, other, forest.set_from_scan[scan],
+                                            forest.set_from_scan[other]));
+            }
+            keep_nearest(pairs, settings_.max_closures);
+            close_loops_of(scan, pairs);
+        }
+    }
+
+    void close_loops_of(std::size_t scan, std::span<const NearbyPair> pairs) {
+        auto num_links = std::count_if(links_.begin(), links_.end(), [scan](const auto& link) {
+            return link.verdict == LinkVerdict::accepted &&
+                   (link.source == scan || link.target == scan);
+        });
+        bool may_search = true;
+        for (const NearbyPair& pair : pairs) {
+            if (num_links >= settings_.max_closures) break;
+            if (find_link(pair.source, pair.target) != nullptr || !should_overlap(pair)) continue;
+            if (auto link = register_with_guess(pair)) {
+                links_.push_back(std::move(*link));
+                ++num_links;
+            } else if (may_search) {
+                // Scans that should overlap and do not as they should: one of the links that put
+                // them there may be wrong. Once per scan their true pose is worth a search.
+                may_search = false;
+                register_without_guess(pair.source, pair.target);
+            }
+        }
+    }
+
+    void accept(RegistrationLink& link, bool rival) {
+        if (rival) std::swap(link.target_from_source, *link.rival);
+        link.verdict = LinkVerdict::accepted;
+        link.loops = LoopCheck::resolved;
+    }
+
+    /// Of the poses of an ambiguous link, known poses may allow one alone.
+    void settle_by_known_poses() {
+        if (known_.empty()) return;
+        for (RegistrationLink& link : links_) {
+            if (link.verdict != LinkVerdict::ambiguous || !link.rival) continue;
+            if (!known_[link.source] || !known_[link.target]) continue;
+            const ChainedPose expected =
+                reversed(known_chain(*known_[link.target])) * known_chain(*known_[link.source]);
+            RegistrationLink other = link;
+            std::swap(other.target_from_source, *other.rival);
+            const bool first = are_consistent(chain_of(link, tolerance_), expected);
+            const bool second = are_consistent(chain_of(other, tolerance_), expected);
+            if (first != second) accept(link, second);
+        }
+    }
+
+    /// The links that become possible between two sets of scans if a link between them has a pose.
+    std::vector<RegistrationLink> link_sets(const LinkForest& forest, const RegistrationLink& link,
+                                            const Transform& target_from_source) const {
+        constexpr int max_links = 3;
+        const Transform to_target_set = forest.set_from_scan[link.target] * target_from_source *
+                                        forest.set_from_scan[link.source].inverse();
+        std::vector<NearbyPair> pairs;
+        for (std::size_t a = 0; a < scans_.size(); ++a) {
+            if (forest.set_of[a] != forest.set_of[link.source]) continue;
+            for (std::size_t b = 0; b < scans_.size(); ++b) {
+                if (forest.set_of[b] != forest.set_of[link.target]) continue;
+                if (a == link.source && b == link.target) continue;
+                pairs.push_back(nearby_pair(a, b, to_target_set * forest.set_from_scan[a],
+                                            forest.set_from_scan[b]));
+            }
+        }
+        keep_nearest(pairs, max_links);
+        std::vector<RegistrationLink> found;
+        for (const NearbyPair& pair : pairs) {
+            if (found.size() == max_links) break;
+            if (!should_overlap(pair)) continue;
+            if (auto closed = register_with_guess(pair)) found.push_back(std::move(*closed));
+        }
+        return found;
+    }
+
+    /// An ambiguous link between two sets: the scans around it can decide which pose is right.
+    void settle_by_surroundings() {
+        for (std::size_t i = 0; i < links_.size(); ++i) {
+            const RegistrationLink link = links_[i];
+            if (link.verdict != LinkVerdict::ambiguous || !link.rival) continue;
+            const LinkForest forest = grow_forest(links_, scans_.size(), false);
+            if (forest.set_of[link.source] == forest.set_of[link.target]) continue;
+            const auto first = link_sets(forest, link, link.target_from_source);
+            const auto second = link_sets(forest, link, *link.rival);
+            if (first.empty() == second.empty()) continue;
+            accept(links_[i], first.empty());
+            for (const RegistrationLink& closed : first.empty() ? second : first) {
+                RegistrationLink* const known = find_link(closed.source, closed.target);
+                if (known == nullptr) {
+                    links_.push_back(closed);
+                } else if (known->verdict != LinkVerdict::accepted) {
+                    *known = closed;
+                }
+            }
+        }
+    }
+
+    std::span<const PreparedScan> scans_;
+    std::span<const std::optional<KnownPose>> known_;
+    RegistrationScale scale_;
+    std::uint64_t seed_;
+    const PairRegistrationSettings& pair_;
+    const ScanGraphSettings& settings_;
+    const Context& context_;
+    LinkTolerance tolerance_;
+    std::vector<RegistrationLink> links_;
+};
+
+}  // namespace
+
+LinkTolerance link_tolerance(const RegistrationScale& scale) {
+    // Poses that are off by more than a quarter of a voxel at some metres are not merely inexact.
+    constexpr double distance = 3.0;
+    const double deviation = 0.25 * scale.coarse_voxel;
+    return {deviation / distance, deviation};
+}
+
+std::vector<RegistrationLink> link_scans(std::span<const PreparedScan> scans,
+                                         std::span<const std::optional<KnownPose>> known,
+                                         const RegistrationScale& scale, std::uint64_t seed,
+                                         const PairRegistrationSettings& pair,
+                                         const ScanGraphSettings& settings,
+                                         const Context& context) {
+    return LinkFinder(scans, known, scale, seed, pair, settings, context).run();
+}
+
+}  // namespace roomscribe

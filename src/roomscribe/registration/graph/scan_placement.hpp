@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "roomscribe/core/context.hpp"
+#include "roomscribe/model/registration_result.hpp"
+#include "roomscribe/registration/graph/pose_graph.hpp"
+#include "roomscribe/registration/graph/scan_graph.hpp"
+
+namespace roomscribe {
+
+/// What becomes of known poses.
+enum class KnownPoseUse : std::uint8_t {
+    prior,  ///< they take part like links, with their deviations
+    fixed   ///< they are kept
+};
+
+/// Poses of all scans that accepted and ambiguous links join to the first, and how good they are.
+/// A spanning tree of the likeliest links gives the start, the pose graph of all accepted links
+/// and of those ambiguous ones that alone hold a scan the result. Known poses (one entry per scan,
+/// or none) that are kept define the frame instead of the first scan, and join scans as links do;
+/// those that are priors only pull. `noise` (m) is that of the scans: no link is trusted to better
+/// than a tenth of it.
+Registration place_scans(std::vector<RegistrationLink> links, std::size_t num_scans,
+                         std::span<const std::optional<KnownPose>> known, KnownPoseUse use,
+                         double noise, const PoseGraphSettings& settings = {},
+                         const Context& context = {});
+
+}  // namespace roomscribe

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "roomscribe/core/context.hpp"
+#include "roomscribe/geometry/transform.hpp"
+#include "roomscribe/registration/pair/prepared_scan.hpp"
+
+namespace roomscribe {
+
+/// What became of some witnesses, points of one scan, in the other scan. Those in space that the
+/// other scan did not see count in `total` alone.
+struct WitnessTally {
+    std::size_t total = 0;
+    std::size_t confirmed = 0;     ///< on a surface of the other scan that faces the same way
+    std::size_t displaced = 0;     ///< near such a surface, but off it by more than it is uncertain
+    std::size_t contradicted = 0;  ///< where the other scan's rays passed and met nothing
+
+    std::size_t judged() const { return confirmed + displaced + contradicted; }
+    WitnessTally& operator+=(const WitnessTally& other);
+};
+
+/// How well a pose explains two scans, by the witnesses of both. Those on the shell, the large
+/// planes that all rooms have, say how far the scans overlap; the details, furniture and reveals
+/// and all that is small, tell a room from its mirror image and one office from the next.
+struct PoseSupport {
+    WitnessTally shell;
+    WitnessTally detail;
+    /// Whether both scans' free space could be asked; without it nothing is ever contradicted.
+    bool free_space_is_known = false;
+
+    WitnessTally all() const;
+    /// Share of all witnesses that have a counterpart: confirmed or displaced.
+    double overlap() const;
+    /// Share that is confirmed of those on which the other scan has a say.
+    double agreement() const;
+    /// The same of the details alone; empty with fewer than 30 of them, of which no share is known.
+    std::optional<double> detail_agreement() const;
+    /// Contradicted as a share of the confirmed ones.
+    double contradiction() const;
+    /// What poses are ranked by: confirmed less contradicted and displaced, as a share of all.
+    double score() const;
+};
+
+/// How near a witness must come.
+struct SupportTolerance {
+    double off_plane = 0.02;           ///< m off the surface: confirmed
+    double max_off_plane = 0.04;       ///< m, of surface that is as rough as that itself
+    double reach = 0.1;                ///< m to the nearest point of a surface
+    double margin = 0.06;              ///< m before what the other scan saw: contradicted
+    std::size_t num_witnesses = 4000;  ///< of each scan, about
+};
+
+/// Before the pose is refined: it may be off by a good part of a coarse voxel.
+SupportTolerance coarse_tolerance(const RegistrationScale& scale);
+/// After: three times the noise, or half of the fine spacing over which surfaces are curved.
+SupportTolerance fine_tolerance(const RegistrationScale& scale);
+
+/// Holds a pose against both scans: each scan's witnesses, as the other judges them.
+PoseSupport measure_support(const PreparedScan& source, const PreparedScan& target,
+                            const Transform& target_from_source, const SupportTolerance& tolerance,
+                            const Context& context = {});
+
+enum class Screening : std::uint8_t {
+    glance,  ///< 40 witnesses of the source: what brings no surfaces together falls out
+    look     ///< 300 witnesses of either scan, free space asked
+};
+
+/// Confirmed less contradicted as a share of some witnesses, by nearby points instead of nearest
+/// ones: a quick score for each of many poses.
+std::vector<double> screen_poses(const PreparedScan& source, const PreparedScan& target,
+                                 std::span<const Transform> poses, const RegistrationScale& scale,
+                                 Screening screening, const Context& context = {});
+
+}  // namespace roomscribe

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: MIT
+#include "roomscribe/registration/pair/prepared_scan.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+#include "roomscribe/preprocessing/normal_estimation.hpp"
+#include "roomscribe/preprocessing/outlier_removal.hpp"
+#include "roomscribe/preprocessing/voxel_grid.hpp"
+
+namespace roomscribe {
+namespace {
+
+SurfacePoints clean_surface(const PointCloud& thinned, const Eigen::Vector3d& sensor_position,
+                            const Context& context) {
+    const SearchTree all(thinned.positions);
+    const std::vector<std::uint32_t> kept = remove_outliers(thinned.positions, all, {}, context);
+    std::vector<Eigen::Vector3f> positions = select_points(thinned, kept).positions;
+    SearchTree tree(positions);
+    PointNormals fit = estimate_normals(positions, tree, sensor_position, {}, context);
+    return {std::move(positions), std::move(fit.normals), std::move(fit.residuals),
+            std::move(tree)};
+}
+
+/// Every n-th point with a normal, about so many.
+OrientedPoints sample_surface(const SurfacePoints& points, std::size_t sample_size) {
+    const std::size_t stride = std::max<std::size_t>(1, points.positions.size() / sample_size);
+    OrientedPoints sample;
+    for (std::size_t i = 0; i < points.positions.size(); i += stride) {
+        if (!points.normals[i].allFinite()) continue;
+        sample.positions.push_back(points.positions[i]);
+        sample.normals.push_back(points.normals[i]);
+        sample.deviations.push_back(points.deviations[i]);
+    }
+    return sample;
+}
+
+Witnesses choose_witnesses(const SurfacePoints& fine, const SurfacePoints& coarse,
+                           std::span<const SurfaceDirection> directions,
+                           const RegistrationScale& scale) {
+    // Shares of a sample of this size are good to one per cent.
+    constexpr std::size_t num_witnesses = 4000;
+    constexpr double min_shell_area = 1.5;  // m2, of a door leaf
+    const std::vector<ShellPlane> shell = find_shell(coarse.positions, coarse.normals, directions,
+                                                     scale.coarse_voxel, min_shell_area);
+    Witnesses witnesses{sample_surface(fine, num_witnesses), {}};
+    for (std::size_t i = 0; i < witnesses.points.positions.size(); ++i) {
+        const bool is_shell = is_on_shell(shell, witnesses.points.positions[i],
+                                          witnesses.points.normals[i], 0.75 * scale.coarse_voxel);
+        witnesses.is_detail.push_back(is_shell ? 0 : 1);
+    }
+    return witnesses;
+}
+
+/// Points whose histogram differs most from the scan's mean histogram: on bare walls and floors all
+/// histograms are alike and say nothing (persistence analysis, Rusu et al. 2008).
+std::vector<std::uint32_t> choose_distinctive(const FpfhDescriptors& descriptors) {
+    // More matches cost more than they tell: pairs of matches are compared with each other.
+    constexpr std::size_t max_keypoints = 2500;
+    std::vector<std::uint32_t> order(static_cast<std::size_t>(descriptors.cols()));
+    std::iota(order.begin(), order.end(), 0U);
+    if (order.size() <= max_keypoints) return order;
+    const Eigen::Matrix<float, fpfh_size, 1> mean = descriptors.rowwise().mean();
+    const Eigen::VectorXf distances = (descriptors.colwise() - mean).colwise().squaredNorm();
+    std::stable_sort(order.begin(), order.end(), [&distances](std::uint32_t a, std::uint32_t b) {
+        return distances[a] > distances[b];
+    });
+    order.resize(max_keypoints);
+    std::sort(order.begin(), order.end());
+    return order;
+}
+
+}  // namespace
+
+PreparedScan prepare_scan(const Scan& scan, const RegistrationScale& scale,
+                          const Context& context) {
+    const Eigen::Vector3d sensor_position = scan.sensor_position();
+    const PointCloud fine_points =
+        downsample_voxel_grid(scan.cloud, {.voxel_size = scale.fine_voxel}, context).cloud;
+    const PointCloud coarse_points =
+        downsample_voxel_grid(fine_points, {.voxel_size = scale.coarse_voxel}, context).cloud;
+    SurfacePoints fine = clean_surface(fine_points, sensor_position, context);
+    SurfacePoints coarse = clean_surface(coarse_points, sensor_position, context);
+    std::vector<std::uint32_t> candidates(coarse.positions.size());
+    std::iota(candidates.begin(), candidates.end(), 0U);
+    const FpfhDescriptors all = compute_fpfh(coarse.positions, coarse.normals, coarse.tree,
+                                             candidates, {.radius = scale.fpfh_radius}, context);
+    std::vector<std::uint32_t> keypoints = choose_distinctive(all);
+    FpfhDescriptors descriptors(fpfh_size, static_cast<Eigen::Index>(keypoints.size()));
+    for (std::size_t i = 0; i < keypoints.size(); ++i) {
+        descriptors.col(static_cast<Eigen::Index>(i)) = all.col(keypoints[i]);
+    }
+
+    // Rims contradict up to a fifth of an honest but thin scan, a merged cloud a third of itself.
+    constexpr double max_self_contradiction = 0.2;
+    const bool free_space_is_valid =
+        self_contradiction(scan.cloud.positions, sensor_position, 0.5 * scale.coarse_voxel) <
+        max_self_contradiction;
+    // Shares of a sample of this size are good to two per cent, and a pose from so many pairs to
+    // less than a hundredth of the noise: more points cost time alone.
+    constexpr std::size_t coarse_sample_size = 1500;
+    constexpr std::size_t fine_sample_size = 15'000;
+    const PointSpread spread = measure_spread(coarse.positions);
+    OrientedPoints coarse_sample = sample_surface(coarse, coarse_sample_size);
+    OrientedPoints fine_sample = sample_surface(fine, fine_sample_size);
+    SurfaceGrid coarse_grid(coarse.positions, scale.coarse_voxel);
+    std::vector<SurfaceDirection> directions = find_surface_directions(coarse.normals);
+    Witnesses witnesses = choose_witnesses(fine, coarse, directions, scale);
+    return {std::move(coarse),
+            std::move(fine),
+            std::move(coarse_sample),
+            std::move(fine_sample),
+            std::move(witnesses),
+            std::move(keypoints),
+            std::move(descriptors),
+            spread,
+            FreeSpace(scan.cloud.positions, sensor_position, 2.5),
+            free_space_is_valid,
+            std::move(coarse_grid),
+            std::move(directions)};
+}
+
+}  // namespace roomscribe

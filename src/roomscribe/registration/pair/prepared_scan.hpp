@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "roomscribe/core/context.hpp"
+#include "roomscribe/geometry/search_tree.hpp"
+#include "roomscribe/model/scan.hpp"
+#include "roomscribe/registration/features/fpfh_descriptor.hpp"
+#include "roomscribe/registration/pair/free_space.hpp"
+#include "roomscribe/registration/pair/surface_directions.hpp"
+#include "roomscribe/registration/pair/surface_grid.hpp"
+
+namespace roomscribe {
+
+/// A scan thinned to one spacing, with normals towards the scanner.
+struct SurfacePoints {
+    std::vector<Eigen::Vector3f> positions;
+    std::vector<Eigen::Vector3f> normals;
+    std::vector<float> deviations;  ///< m, of a point's neighbours about their plane
+    SearchTree tree;
+};
+
+struct OrientedPoints {
+    std::vector<Eigen::Vector3f> positions;
+    std::vector<Eigen::Vector3f> normals;
+    std::vector<float> deviations;
+};
+
+/// Points of a scan that a pose is held against.
+struct Witnesses {
+    OrientedPoints points;
+    std::vector<std::uint8_t> is_detail;  ///< 0: on the shell, one of the scan's large planes
+};
+
+/// Sizes that all scans of a job share, so that their descriptors can be compared.
+struct RegistrationScale {
+    double coarse_voxel = 0.1;  ///< m, of the points that are matched
+    double fine_voxel = 0.05;   ///< m, of the points that are aligned
+    double fpfh_radius = 0.5;   ///< m
+    double noise = 0.01;        ///< m
+};
+
+/// All that registration needs of a scan, computed once however many partners it meets.
+struct PreparedScan {
+    SurfacePoints coarse;
+    SurfacePoints fine;
+    OrientedPoints coarse_sample;          ///< some of the coarse points, spread evenly
+    OrientedPoints fine_sample;            ///< some of the fine points, spread evenly
+    Witnesses witnesses;                   ///< some of the fine points, spread evenly
+    std::vector<std::uint32_t> keypoints;  ///< numbers of coarse points
+    FpfhDescriptors descriptors;           ///< one column per keypoint
+    PointSpread spread;                    ///< of the coarse points
+    FreeSpace free_space;
+    /// The rays really start at the sensor position: what they passed through may be used.
+    bool free_space_is_valid = false;
+    SurfaceGrid coarse_grid;                   ///< over the coarse points
+    std::vector<SurfaceDirection> directions;  ///< of the coarse points
+};
+
+/// Voxel grid, outlier removal, normals, keypoints, FPFH (steps 1 and 2 of the paper's Algorithm
+/// 1).
+PreparedScan prepare_scan(const Scan& scan, const RegistrationScale& scale,
+                          const Context& context = {});
+
+}  // namespace roomscribe
