@@ -52,9 +52,10 @@ struct RegistrationLink {
     std::string_view stop_reason;    ///< of the last refinement
 };
 
-/// All scans in one frame: that of the first scan, or that of known poses that were kept.
+/// Scans in one frame: that of the first scan of the largest connected set, or that of known poses
+/// that were kept.
 struct Registration {
-    /// Per scan; empty for a scan that has no accepted or ambiguous chain of links to the first.
+    /// Per scan; empty for a scan that no chain of accepted or ambiguous links leads to.
     std::vector<std::optional<Transform>> map_from_scan;
     /// Per scan, of map_from_scan as in RegistrationLink: its variance along a direction that no
     /// link holds is that of knowing nothing, 1e6 (rad2 or m2). Zero for a scan that defines the
@@ -63,9 +64,9 @@ struct Registration {
     /// Per scan: it has a place, but only by way of an ambiguous link.
     std::vector<bool> is_doubtful;
     std::vector<RegistrationLink> links;
-    /// Scans that accepted and ambiguous links join, ascending; the one of the first scan comes
-    /// first, then the others by their first scan. More than one: there are several maps, and only
-    /// the first of them has poses (the others have their links).
+    /// Scans that accepted and ambiguous links join, ascending; the largest set comes first, then
+    /// the others by their first scan. More than one: there are several maps, and only the first of
+    /// them has poses (the others have their links).
     std::vector<std::vector<std::size_t>> components;
     std::vector<double> residuals;  ///< m per scan: RMSE over its links, NaN where it has none
     std::vector<double> overlaps;   ///< per scan: the largest over its links, 0 where it has none

@@ -54,17 +54,28 @@ TEST_F(PlaceScans, SetsThatNothingJoinsAreReportedAndNotForcedTogether) {
     const Registration result =
         place_scans({link(2, 0), link(3, 1), link(4, 1), link(2, 1, LinkVerdict::rejected)}, 5, {},
                     KnownPoseUse::prior, noise);
-    EXPECT_THAT(result.components, ElementsAre(ElementsAre(0, 2), ElementsAre(1, 3, 4)));
-    EXPECT_THAT(*result.map_from_scan[0], TransformNear(Transform::Identity(), 0.0, 0.0));
-    EXPECT_THAT(*result.map_from_scan[2], TransformNear(from_first(2), 1e-6, 1e-6));
-    for (const std::size_t scan : {1U, 3U, 4U})
+    EXPECT_THAT(result.components, ElementsAre(ElementsAre(1, 3, 4), ElementsAre(0, 2)));
+    EXPECT_THAT(*result.map_from_scan[1], TransformNear(Transform::Identity(), 0.0, 0.0));
+    for (const std::size_t scan : {3U, 4U}) {
+        EXPECT_THAT(*result.map_from_scan[scan],
+                    TransformNear(poses_[1].inverse() * poses_[scan], 1e-6, 1e-6));
+    }
+    for (const std::size_t scan : {0U, 2U})
         EXPECT_FALSE(result.map_from_scan[scan]);
     EXPECT_EQ(result.links.size(), 4U);
     EXPECT_NEAR(result.residuals[2], 0.002, 1e-12);
     EXPECT_NEAR(result.residuals[1], std::sqrt((9.0 + 16.0) / 2.0) * 1e-3, 1e-12);
     EXPECT_NEAR(result.overlaps[1], 0.4, 1e-12);
-    EXPECT_TRUE(result.covariances[0].isZero());
-    EXPECT_GT(result.covariances[2].trace(), 0.0);
+    EXPECT_TRUE(result.covariances[1].isZero());
+    EXPECT_GT(result.covariances[3].trace(), 0.0);
+}
+
+TEST_F(PlaceScans, OfEquallyLargeSetsTheFirstScansIsTheMap) {
+    const Registration result =
+        place_scans({link(2, 0), link(3, 1)}, 4, {}, KnownPoseUse::prior, noise);
+    EXPECT_THAT(result.components, ElementsAre(ElementsAre(0, 2), ElementsAre(1, 3)));
+    EXPECT_THAT(*result.map_from_scan[2], TransformNear(from_first(2), 1e-6, 1e-6));
+    EXPECT_FALSE(result.map_from_scan[3]);
 }
 
 TEST_F(PlaceScans, AcceptedLinksComeBeforeAmbiguousOnes) {

@@ -55,6 +55,7 @@ class Placer {
 
     Registration run(const PoseGraphSettings& settings, const Context& context) && {
         forest_ = grow_forest(links_and_bonds(), num_scans_, true);
+        map_set_ = choose_map_set();
         if (keeps_known()) move_to_known();
         find_components();
         place(optimize_pose_graph(make_graph(), settings, context));
@@ -84,8 +85,17 @@ class Placer {
         return links;
     }
 
-    std::size_t map_set() const { return forest_.set_of[keeps_known() ? known_scans_.front() : 0]; }
-    bool is_placed(std::size_t scan) const { return forest_.set_of[scan] == map_set(); }
+    /// The set that becomes the map: the one of known poses that are kept, else the largest, and of
+    /// equally large ones that of the lowest scan.
+    std::size_t choose_map_set() const {
+        if (keeps_known()) return forest_.set_of[known_scans_.front()];
+        std::vector<std::size_t> sizes(num_scans_, 0);
+        for (const std::size_t set : forest_.set_of)
+            ++sizes[set];
+        return static_cast<std::size_t>(std::max_element(sizes.begin(), sizes.end()) -
+                                        sizes.begin());
+    }
+    bool is_placed(std::size_t scan) const { return forest_.set_of[scan] == map_set_; }
 
     void move_to_known() {
         const std::size_t first = known_scans_.front();
@@ -106,6 +116,9 @@ class Placer {
                 if (forest_.set_of[scan] == first) component.push_back(scan);
             }
         }
+        std::stable_partition(
+            result_.components.begin(), result_.components.end(),
+            [&](const std::vector<std::size_t>& scans) { return is_placed(scans.front()); });
     }
 
     PoseGraph make_graph() const {
@@ -122,7 +135,7 @@ class Placer {
         if (keeps_known()) {
             graph.fixed = known_scans_;
         } else {
-            graph.fixed = {0};
+            graph.fixed = {map_set_};
             add_priors(graph);
         }
         return graph;
@@ -176,6 +189,7 @@ class Placer {
     double noise_;
     std::vector<std::size_t> known_scans_;
     LinkForest forest_;
+    std::size_t map_set_ = 0;  ///< lowest scan of the set that becomes the map
     Registration result_;
 };
 

@@ -19,7 +19,7 @@ enum class KnownPoseUse : std::uint8_t {
     fixed   ///< they are kept
 };
 
-/// Poses of all scans that accepted and ambiguous links join to the first, and how good they are.
+/// Poses of the largest set of scans that accepted and ambiguous links join, and how good they are.
 /// A spanning tree of the likeliest links gives the start, the pose graph of all accepted links
 /// and of those ambiguous ones that alone hold a scan the result. Known poses (one entry per scan,
 /// or none) that are kept define the frame instead of the first scan, and join scans as links do;

@@ -203,8 +203,7 @@ std::vector<VerifiedPose> verify_poses(const PreparedScan& source, const Prepare
         poses.begin(), poses.end(),
         [](const VerifiedPose& pose) { return pose.support.contradiction() <= 0.1; });
     const auto num_hopeful = static_cast<std::size_t>(first_hopeless - poses.begin());
-    poses.resize(
-        std::min({poses.size(), num_refined, std::max<std::size_t>(num_hopeful, 1)}));
+    poses.resize(std::min({poses.size(), num_refined, std::max<std::size_t>(num_hopeful, 1)}));
     for (VerifiedPose& pose : poses) {
         pose.icp = refine(source, target, pose.icp.target_from_source, scale, settings, context);
         pose.support = measure_support(source, target, pose.icp.target_from_source,
@@ -249,7 +248,11 @@ RegistrationLink link_of(const VerifiedPose& pose, const PreparedScan& source,
     link.covariance = uncertainty.covariance;
     link.unobservable = uncertainty.unobservable;
     link.probability = probability_of(pose.support);
-    if (is_supported(pose.support, settings)) link.verdict = LinkVerdict::accepted;
+    if (is_supported(pose.support, settings)) {
+        const bool is_bare = pose.support.detail_share() < settings.min_detail_share;
+        link.verdict = is_bare ? LinkVerdict::ambiguous : LinkVerdict::accepted;
+        if (is_bare) link.probability *= 0.5;
+    }
     return link;
 }
 
@@ -321,6 +324,14 @@ void PairRegistrationSettings::visit(SettingVisitor& visitor) {
              .min = 0.0,
              .max = 1.0,
              .doc = "... or a smaller share of those that lie on no large plane."});
+    visitor(
+        min_detail_share,
+        {.name = "min_detail_share",
+         .unit = "",
+         .min = 0.0,
+         .max = 1.0,
+         .doc = "A link is ambiguous if a smaller share of those points lies on no large plane: "
+                "bare walls and floors agree in many ways."});
     visitor(
         max_contradiction,
         {.name = "max_contradiction",

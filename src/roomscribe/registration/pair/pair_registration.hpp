@@ -39,6 +39,7 @@ struct PairRegistrationSettings {
     double min_agreement = 0.5;
     double min_agreement_alone = 0.65;
     double min_detail_agreement = 0.5;
+    double min_detail_share = 0.05;
     double max_contradiction = 0.015;
     double min_lead = 0.12;
 

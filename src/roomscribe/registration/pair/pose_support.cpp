@@ -130,6 +130,10 @@ std::optional<double> PoseSupport::detail_agreement() const {
     return share(static_cast<double>(detail.confirmed), detail.judged());
 }
 
+double PoseSupport::detail_share() const {
+    return share(static_cast<double>(detail.judged()), all().judged());
+}
+
 double PoseSupport::contradiction() const {
     const WitnessTally sum = all();
     if (sum.contradicted == 0) return 0.0;

@@ -41,6 +41,8 @@ struct PoseSupport {
     double agreement() const;
     /// The same of the details alone; empty with fewer than 30 of them, of which no share is known.
     std::optional<double> detail_agreement() const;
+    /// Share of the details among the witnesses on which the other scan has a say.
+    double detail_share() const;
     /// Contradicted as a share of the confirmed ones.
     double contradiction() const;
     /// What poses are ranked by: confirmed less contradicted and displaced, as a share of all.
