@@ -108,8 +108,7 @@ class AxisHistogram {
   public:
     AxisHistogram(std::span<const Eigen::Vector3f> positions,
                   std::span<const Eigen::Vector3f> normals, const Matrix3d& rotation,
-                  const Vector3d& axis, double bin)
-        : bin_(bin) {
+                  const Vector3d& axis, double bin) {
         const Eigen::Vector3f along = (rotation.transpose() * axis).cast<float>();
         const auto min_cosine = static_cast<float>(std::cos(radians(25.0)));
         low_ = std::numeric_limits<int>::max();
@@ -156,7 +155,6 @@ class AxisHistogram {
     }
 
   private:
-    double bin_;
     int low_ = 0;
     std::array<std::vector<float>, 2> counts_;
 };
@@ -201,7 +199,7 @@ std::vector<ShiftCandidate> list_shifts(const AxisHistogram& source, const AxisH
 /// missing is filled by their cross product.
 Matrix3d choose_axes(const RotationCandidate& candidate, std::span<const SurfaceDirection> source,
                      std::span<const SurfaceDirection> target) {
-    std::vector<std::pair<double, Vector3d>> shared;
+    std::vector<SurfaceDirection> shared;
     const double min_cosine = std::cos(same_direction_angle);
     for (const SurfaceDirection& to : target) {
         double weight = 0.0;
@@ -209,12 +207,13 @@ Matrix3d choose_axes(const RotationCandidate& candidate, std::span<const Surface
             if ((candidate.rotation * from.direction).dot(to.direction) >= min_cosine)
                 weight += std::min(from.share, to.share);
         }
-        if (weight > 0.0) shared.emplace_back(weight, to.direction);
+        if (weight > 0.0) shared.push_back({to.direction, weight});
     }
     std::stable_sort(shared.begin(), shared.end(),
-                     [](const auto& a, const auto& b) { return a.first > b.first; });
+                     [](const auto& a, const auto& b) { return a.share > b.share; });
     std::vector<Vector3d> axes;
-    for (const auto& [weight, direction] : shared) {
+    for (const SurfaceDirection& surface : shared) {
+        const Vector3d& direction = surface.direction;
         const bool adds = std::all_of(axes.begin(), axes.end(), [&](const Vector3d& axis) {
             return std::abs(axis.dot(direction)) < std::cos(radians(50.0));
         });
