@@ -56,13 +56,13 @@ struct ScanRegistration {
     std::vector<DerivedValue> derived_values;
 };
 
-/// Any number of scans, in any order, one frame: that of the first scan of the largest connected set.
-/// A scan that no link holds stays without a place; it is never put at the identity in silence. As a
-/// graph, the order of the scans decides nothing but the frame and the numbers. As a sequence, every scan is linked to the
-/// one before it and to no other, and placed by accepted and ambiguous links.
-/// `known_world_from_scan` is empty or has one entry per scan, empty where nothing is known: see
-/// KnownPoseUse; a sequence only places by them. Throws InvalidArgument if there are no scans, or
-/// another number of known poses.
+/// Any number of scans, in any order, one frame: that of the first scan of the largest connected
+/// set. A scan that no link holds stays without a place; it is never put at the identity in
+/// silence. As a graph, the order of the scans decides nothing but the frame and the numbers. As a
+/// sequence, every scan is linked to the one before it and to no other, and placed by accepted and
+/// ambiguous links. `known_world_from_scan` is empty or has one entry per scan, empty where nothing
+/// is known: see KnownPoseUse; a sequence only places by them. Throws InvalidArgument if there are
+/// no scans, or another number of known poses.
 ScanRegistration register_scans(std::span<const Scan> scans,
                                 std::span<const std::optional<Transform>> known_world_from_scan,
                                 std::uint64_t seed, const ScanRegistrationSettings& settings = {},
