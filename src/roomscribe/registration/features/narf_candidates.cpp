@@ -2,58 +2,97 @@
 #include "roomscribe/registration/features/narf_candidates.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
-#include <Eigen/Geometry>
-
 #include "roomscribe/core/parallel.hpp"
+#include "roomscribe/registration/features/narf_bounds.hpp"
 
 namespace roomscribe {
 namespace {
 
-constexpr int largest_side = 16;  // of a square of pixels, a power of 2
-constexpr std::size_t num_levels = 5;
-constexpr int group_side = 4;  // squares of changes, in a larger one
+constexpr int largest_side = 32;  // of a square of pixels, a power of 2
+constexpr int least_side = 4;     // of a square of pixels that is held against cells of changes
+constexpr std::size_t max_depth = 4;
 constexpr float rounding = 1e-4F;
-
-/// Positions have a fourth coordinate, 0, so that one instruction takes them all.
-struct Change {
-    Eigen::Array4f position;
-    float score = 0.0F;
-    float weight = 0.0F;  ///< at most so much of the score counts for the pixels of a square
-    std::uint32_t angle = 0;
-};
 
 struct Square {
     int x, y, side;
-};
 
-/// The changes of a square of pixels.
-struct ChangeCell {
-    Eigen::AlignedBox3f box;
-    std::vector<Change> changes;
-};
-
-/// Cells that are next to each other.
-struct CellGroup {
-    Eigen::AlignedBox3f box;
-    std::vector<ChangeCell> cells;
-};
-
-/// Per direction what the best change of another one makes of it.
-AngleHistogram best_partners(const AngleHistogram& most) {
-    constexpr std::size_t n = num_change_angles;
-    std::array<float, 2 * n> twice;
-    std::copy(most.begin(), most.end(), twice.begin());
-    std::copy(most.begin(), most.end(), twice.begin() + n);
-    AngleHistogram partners{};
-    for (std::size_t steps = 1; steps < n; ++steps) {
-        const float difference = angle_difference(0, steps);
-        for (std::size_t a = 0; a < n; ++a)
-            partners[a] = std::max(partners[a], difference * twice[a + steps]);
+    std::array<Square, 4> quarters() const {
+        const int half = side / 2;
+        return {
+            {{x, y, half}, {x + half, y, half}, {x, y + half, half}, {x + half, y + half, half}}};
     }
-    return partners;
+};
+
+/// What is known of the pixels of a square before the changes around it are looked at.
+struct PixelBound {
+    PointBox box;  ///< of those that are steady enough
+    float steadiness = 0.0F;
+    AngleHistogram most{};  ///< scores in and right beside the square, which count in full
+
+    void merge(const PixelBound& other);
+};
+
+/// A square of the image: its pixels, and its changes as others see them. It has either quarters
+/// or, if it is the least, changes of its own.
+struct Cell {
+    Square square;
+    PixelBound pixels;
+    PointBox box;
+    AngleHistogram most{};  ///< scores per direction
+    std::vector<Cell> quarters;
+    std::vector<NearChange> changes;
+};
+
+/// A cell as seen from a square of pixels.
+struct NearCell {
+    const Cell* cell = nullptr;
+    float nearness = 0.0F;  ///< so much of its scores counts at most
+};
+
+/// What can count for a square, per depth of the tree.
+struct Workspace {
+    std::array<std::vector<const Cell*>, max_depth + 1> cells;
+    std::array<std::vector<NearChange>, max_depth + 1> changes;
+    std::vector<NearCell> near;
+};
+
+using Angles = Eigen::Array<float, num_change_angles, 1>;
+
+Eigen::Map<Angles> as_array(AngleHistogram& values) {
+    return Eigen::Map<Angles>(values.data());
 }
+Eigen::Map<const Angles> as_array(const AngleHistogram& values) {
+    return Eigen::Map<const Angles>(values.data());
+}
+
+/// Whether any of the scores counts at some nearness.
+bool is_strong(const AngleHistogram& scores, float nearness, const AngleHistogram& least) {
+    return (nearness * as_array(scores) - as_array(least)).maxCoeff() >= 0.0F;
+}
+
+void PixelBound::merge(const PixelBound& other) {
+    box.extend(other.box);
+    steadiness = std::max(steadiness, other.steadiness);
+    as_array(most) = as_array(most).max(as_array(other.most));
+}
+
+/// What can count for the pixels of a square.
+struct SquareBound {
+    PointBox box;
+    NarfBounds changes;
+    float enough = 0.0F;  ///< for the square of the interest but for its steadiness
+    AngleHistogram least{};
+
+    SquareBound(const PixelBound& pixels, float min_interest)
+        : box(pixels.box), changes{.most = pixels.most, .sure = {}} {
+        const float root = min_interest / pixels.steadiness;
+        enough = root * root;
+    }
+    bool is_enough() { return changes.best_pair(enough, least) >= enough * (1.0F - rounding); }
+};
 
 class CandidateFinder {
   public:
@@ -64,21 +103,30 @@ class CandidateFinder {
           changes_(changes),
           reach_(reach),
           steadiness_(image.size(), 0.0F),
-          is_candidate_(image.size(), 0) {}
+          candidates_(image.size(), 0.0F) {}
 
-    std::vector<std::uint8_t> find(const Context& context) {
-        group_changes();
-        const auto rows = static_cast<std::size_t>(image_.height);
-        parallel_for(context, rows, largest_side, [&](std::size_t begin, std::size_t end) {
-            bound_steadiness(static_cast<int>(begin), static_cast<int>(end));
-            std::array<std::vector<Change>, num_levels + 1> lists;
-            for (int x = 0; x < image_.width; x += largest_side) {
-                const Square square{x, static_cast<int>(begin), largest_side};
-                find_near(square, lists[0]);
-                divide(square, lists, 0);
+    std::vector<float> find(const Context& context) {
+        std::vector<Square> squares;
+        for (int y = 0; y < image_.height; y += largest_side) {
+            for (int x = 0; x < image_.width; x += largest_side)
+                squares.push_back({x, y, largest_side});
+        }
+        std::vector<Cell> cells(squares.size());
+        parallel_for(context, squares.size(), 4, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i) {
+                bound_steadiness(squares[i]);
+                cells[i] = make_cell(squares[i]);
             }
         });
-        return std::move(is_candidate_);
+        parallel_for(context, cells.size(), 2, [&](std::size_t begin, std::size_t end) {
+            Workspace work;
+            for (const Cell& cell : cells) {
+                if (!cell.box.is_empty()) work.cells[0].push_back(&cell);
+            }
+            for (std::size_t i = begin; i < end; ++i)
+                divide_by_cells(cells[i], work, 0);
+        });
+        return std::move(candidates_);
     }
 
   private:
@@ -93,154 +141,145 @@ class CandidateFinder {
         }
     }
 
-    void group_changes() {
-        constexpr int side = 8;
-        constexpr int step = side * group_side;
-        for (int y = 0; y < image_.height; y += step) {
-            for (int x = 0; x < image_.width; x += step) {
-                CellGroup group;
-                for (int cell = 0; cell < group_side * group_side; ++cell) {
-                    add_cell({x + cell % group_side * side, y + cell / group_side * side, side},
-                             group);
-                }
-                if (!group.cells.empty()) groups_.push_back(std::move(group));
+    Cell make_cell(const Square& square) const {
+        Cell cell{.square = square};
+        if (square.side > least_side) {
+            for (const Square& quarter : square.quarters()) {
+                const Cell& part = cell.quarters.emplace_back(make_cell(quarter));
+                cell.pixels.merge(part.pixels);
+                cell.box.extend(part.box);
+                as_array(cell.most) = as_array(cell.most).max(as_array(part.most));
             }
+            return cell;
         }
-    }
-
-    void add_cell(const Square& square, CellGroup& group) const {
-        ChangeCell cell;
+        cell.pixels = bound_pixels(square);
         for_pixels(square, 0, [&](std::size_t i) {
             if (!changes_.has_change(i)) return;
+            const std::uint8_t angle = changes_.angles[i];
             cell.box.extend(image_.points[i]);
-            const Eigen::Vector3f& point = image_.points[i];
-            cell.changes.push_back(
-                {{point.x(), point.y(), point.z(), 0.0F}, scores_[i], 0.0F, changes_.angles[i]});
+            cell.most[angle] = std::max(cell.most[angle], scores_[i]);
+            cell.changes.push_back({PointBox::position(image_.points[i]), scores_[i], angle});
         });
-        if (cell.changes.empty()) return;
-        group.box.extend(cell.box);
-        group.cells.push_back(std::move(cell));
+        return cell;
+    }
+
+    PixelBound bound_pixels(const Square& square) const {
+        PixelBound bound;
+        for_pixels(square, 0, [&](std::size_t i) {
+            if (steadiness_[i] <= 0.0F) return;
+            bound.box.extend(image_.points[i]);
+            bound.steadiness = std::max(bound.steadiness, steadiness_[i]);
+        });
+        if (bound.box.is_empty()) return bound;
+        for_pixels(square, 1, [&](std::size_t i) {
+            if (!changes_.has_change(i)) return;
+            float& most = bound.most[changes_.angles[i]];
+            most = std::max(most, scores_[i]);
+        });
+        return bound;
     }
 
     /// What the changes right beside a pixel leave of its interest.
-    void bound_steadiness(int begin, int end) {
-        for (int y = begin; y < end; ++y) {
-            for (int x = 0; x < image_.width; ++x) {
-                const std::size_t i = image_.index(x, y);
-                if (changes_.is_surface[i] == 0) continue;
-                float edge = 0.0F;
-                for_pixels({x, y, 1}, 1, [&](std::size_t other) {
-                    if (!changes_.has_change(other) || scores_[other] <= edge) return;
-                    const float distance = (image_.points[other] - image_.points[i]).norm();
-                    edge =
-                        std::max(edge, scores_[other] * (1.0F - distance / reach_.edge_distance));
-                });
-                const float steadiness = narf_steadiness(edge);
-                if (steadiness >= reach_.min_interest - rounding) steadiness_[i] = steadiness;
-            }
-        }
+    void bound_steadiness(const Square& square) {
+        for_pixels(square, 0, [&](std::size_t i) {
+            if (changes_.is_surface[i] == 0) return;
+            float edge = 0.0F;
+            for_pixels({image_.column(i), image_.row(i), 1}, 1, [&](std::size_t other) {
+                if (!changes_.has_change(other) || scores_[other] <= edge) return;
+                const float distance = (image_.points[other] - image_.points[i]).norm();
+                edge = std::max(edge, scores_[other] * (1.0F - distance / reach_.edge_distance));
+            });
+            const float steadiness = narf_steadiness(edge);
+            if (steadiness >= reach_.min_interest - rounding) steadiness_[i] = steadiness;
+        });
     }
 
-    /// The changes of all cells that are near enough.
-    void find_near(const Square& square, std::vector<Change>& near) const {
-        near.clear();
-        Eigen::AlignedBox3f box;
-        for_pixels(square, 0, [&](std::size_t i) {
-            if (steadiness_[i] > 0.0F) box.extend(image_.points[i]);
-        });
-        if (box.isEmpty()) return;
-        const float squared_radius = reach_.radius * reach_.radius;
-        for (const CellGroup& group : groups_) {
-            if (group.box.squaredExteriorDistance(box) >= squared_radius) continue;
-            for (const ChangeCell& cell : group.cells) {
-                if (cell.box.squaredExteriorDistance(box) >= squared_radius) continue;
-                near.insert(near.end(), cell.changes.begin(), cell.changes.end());
-            }
-        }
-    }
-
-    /// Marks the candidates of a square, given all changes that count for it (lists[level]).
-    void divide(const Square& square, std::array<std::vector<Change>, num_levels + 1>& lists,
-                std::size_t level) {
-        Eigen::AlignedBox3f box;
-        float steadiness = 0.0F;
-        for_pixels(square, 0, [&](std::size_t i) {
-            if (steadiness_[i] <= 0.0F) return;
-            box.extend(image_.points[i]);
-            steadiness = std::max(steadiness, steadiness_[i]);
-        });
-        if (box.isEmpty()) return;
-        AngleHistogram most{};
-        for_pixels(square, 1, [&](std::size_t i) {
-            if (!changes_.has_change(i)) return;
-            most[changes_.angles[i]] = std::max(most[changes_.angles[i]], scores_[i]);
-        });
-        std::vector<Change>& kept = lists[level + 1];
-        const AngleHistogram sure = weigh(lists[level], box, kept, most);
-        const AngleHistogram partners = best_partners(most);
-        const float root = reach_.min_interest / steadiness;
-        const float least = root * root * (1.0F - rounding);
-        bool is_enough = false;
-        for (std::size_t a = 0; a < num_change_angles; ++a)
-            is_enough = is_enough || most[a] * partners[a] >= least;
-        if (!is_enough) return;
-        if (square.side == 1) {
-            is_candidate_[image_.index(square.x, square.y)] = 1;
+    /// Marks the candidates of a square, given all cells of changes that count for it.
+    void divide_by_cells(const Cell& own, Workspace& work, std::size_t depth) {
+        if (own.pixels.box.is_empty()) return;
+        SquareBound bound(own.pixels, reach_.min_interest);
+        add_cells(work.cells[depth], bound, work.near);
+        if (!bound.is_enough()) return;
+        if (own.quarters.empty()) {
+            gather_changes(work.near, bound.least, work.changes[0]);
+            for (const Square& quarter : own.square.quarters())
+                divide(quarter, work, 0);
             return;
         }
-        std::erase_if(kept, [&](const Change& change) {
-            return change.weight * partners[change.angle] < least ||
-                   change.weight < sure[change.angle] - rounding;
-        });
-        const int half = square.side / 2;
-        for (const int y : {square.y, square.y + half}) {
-            for (const int x : {square.x, square.x + half})
-                divide({x, y, half}, lists, level + 1);
+        std::vector<const Cell*>& cells = work.cells[depth + 1];
+        cells.clear();
+        for (const auto& [cell, nearness] : work.near) {
+            if (!is_strong(cell->most, nearness, bound.least)) continue;
+            for (const Cell& quarter : cell->quarters) {
+                if (is_strong(quarter.most, nearness, bound.least)) cells.push_back(&quarter);
+            }
+        }
+        for (const Cell& quarter : own.quarters)
+            divide_by_cells(quarter, work, depth + 1);
+    }
+
+    static void gather_changes(const std::vector<NearCell>& near, const AngleHistogram& least,
+                               std::vector<NearChange>& changes) {
+        changes.clear();
+        for (const auto& [cell, nearness] : near) {
+            if (!is_strong(cell->most, nearness, least)) continue;
+            for (const NearChange& change : cell->changes) {
+                if (change.score * nearness >= least[change.angle]) changes.push_back(change);
+            }
         }
     }
 
-    /// Those within the radius of a box, with what counts of them there at most. Returns what
-    /// counts anywhere in the box: what counts less than that is of no matter.
-    AngleHistogram weigh(const std::vector<Change>& changes, const Eigen::AlignedBox3f& box,
-                         std::vector<Change>& kept, AngleHistogram& most) const {
-        kept.clear();
-        AngleHistogram sure{};
-        const float inverse_radius = 1.0F / reach_.radius;
-        Eigen::Array4f low = Eigen::Array4f::Zero();
-        Eigen::Array4f high = Eigen::Array4f::Zero();
-        low.head<3>() = box.min();
-        high.head<3>() = box.max();
-        const float diagonal = box.diagonal().norm() * inverse_radius;
-        for (const Change& change : changes) {
-            const float squared_distance =
-                (change.position - change.position.max(low).min(high)).matrix().squaredNorm();
-            if (squared_distance >= reach_.radius * reach_.radius) continue;
-            const float nearness = 1.0F - std::sqrt(squared_distance) * inverse_radius;
-            const std::uint32_t angle = change.angle;
-            const float weight = change.score * nearness;
-            most[angle] = std::max(most[angle], weight);
-            sure[angle] = std::max(sure[angle], change.score * (nearness - diagonal));
-            if (weight < sure[angle] - rounding) continue;
-            kept.push_back({change.position, change.score, weight, angle});
+    /// Marks the candidates of a square, given all changes that count for it.
+    void divide(const Square& square, Workspace& work, std::size_t depth) {
+        const PixelBound pixels = bound_pixels(square);
+        if (pixels.box.is_empty()) return;
+        SquareBound bound(pixels, reach_.min_interest);
+        std::vector<NearChange>& kept = work.changes[depth + 1];
+        bound.changes.add(work.changes[depth], bound.box, reach_.radius, kept);
+        if (!bound.is_enough()) return;
+        if (square.side == 1) {
+            const std::size_t pixel = image_.index(square.x, square.y);
+            candidates_[pixel] = steadiness_[pixel];
+            return;
         }
-        return sure;
+        drop_weak(bound.least, kept);
+        for (const Square& quarter : square.quarters())
+            divide(quarter, work, depth + 1);
+    }
+
+    /// As NarfBounds::add, for cells.
+    void add_cells(const std::vector<const Cell*>& cells, SquareBound& bound,
+                   std::vector<NearCell>& kept) const {
+        kept.clear();
+        const float inverse_radius = 1.0F / reach_.radius;
+        Angles most = as_array(bound.changes.most);
+        Angles sure = Angles::Zero();
+        for (const Cell* cell : cells) {
+            const float nearness =
+                1.0F - std::sqrt(cell->box.squared_gap(bound.box)) * inverse_radius;
+            if (nearness <= 0.0F) continue;
+            most = most.max(nearness * as_array(cell->most));
+            kept.push_back({cell, nearness});
+            const float farness = std::sqrt(cell->box.squared_span(bound.box)) * inverse_radius;
+            if (farness < 1.0F) sure = sure.max((1.0F - farness) * as_array(cell->most));
+        }
+        as_array(bound.changes.most) = most;
+        as_array(bound.changes.sure) = sure;
     }
 
     const RangeImage& image_;
     const std::vector<float>& scores_;
     const NarfChanges& changes_;
     NarfReach reach_;
-    std::vector<CellGroup> groups_;
     std::vector<float> steadiness_;  ///< at most; 0 where it is not enough
-    std::vector<std::uint8_t> is_candidate_;
+    std::vector<float> candidates_;  ///< their steadiness
 };
 
 }  // namespace
 
-std::vector<std::uint8_t> find_narf_candidates(const RangeImage& image,
-                                               const RangeImageBorders& borders,
-                                               const NarfChanges& changes, const NarfReach& reach,
-                                               const Context& context) {
+std::vector<float> find_narf_candidates(const RangeImage& image, const RangeImageBorders& borders,
+                                        const NarfChanges& changes, const NarfReach& reach,
+                                        const Context& context) {
     return CandidateFinder(image, borders, changes, reach).find(context);
 }
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cstdint>
 #include <vector>
 
 #include "roomscribe/core/context.hpp"
@@ -23,12 +22,11 @@ constexpr float narf_steadiness(float edge) {
     return (1.0F - 0.5F * edge) * (1.0F - 0.5F * edge);
 }
 
-/// 1 for all pixels whose interest could be enough if the surface were connected everywhere, else
-/// 0. Squares of pixels are held against an upper bound of their interest, and divided only if it
-/// is enough.
-std::vector<std::uint8_t> find_narf_candidates(const RangeImage& image,
-                                               const RangeImageBorders& borders,
-                                               const NarfChanges& changes, const NarfReach& reach,
-                                               const Context& context);
+/// Of all pixels whose interest could be enough if the surface were connected everywhere, the
+/// steadiness that the changes right beside leave at most; else 0. Squares of pixels are held
+/// against an upper bound of their interest, and divided only if it is enough.
+std::vector<float> find_narf_candidates(const RangeImage& image, const RangeImageBorders& borders,
+                                        const NarfChanges& changes, const NarfReach& reach,
+                                        const Context& context);
 
 }  // namespace roomscribe

@@ -4,11 +4,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 #include <utility>
 
 #include <Eigen/Core>
 
 #include "roomscribe/core/parallel.hpp"
+#include "roomscribe/registration/features/narf_bounds.hpp"
 #include "roomscribe/registration/features/narf_candidates.hpp"
 #include "roomscribe/registration/features/narf_changes.hpp"
 
@@ -16,30 +18,8 @@ namespace roomscribe {
 namespace {
 
 constexpr std::size_t strip_rows = 32;
-
-/// Changes of the surface of one direction, as columns x, y, z and score.
-class ChangeList {
-  public:
-    void clear() { count_ = 0; }
-    void add(const Eigen::Vector3f& position, float score) {
-        if (count_ == values_.rows()) values_.conservativeResize(2 * count_ + 64, Eigen::NoChange);
-        values_.row(count_++) << position.x(), position.y(), position.z(), score;
-    }
-    /// The most of score * (1 - distance / radius) over the changes; 0 without any.
-    float most_at(const Eigen::Vector3f& point, float radius) const {
-        if (count_ == 0) return 0.0F;
-        const auto changes = values_.topRows(count_);
-        const auto distances =
-            ((changes.col(0) - point.x()).square() + (changes.col(1) - point.y()).square() +
-             (changes.col(2) - point.z()).square())
-                .sqrt();
-        return std::max(0.0F, (changes.col(3) * (1.0F - distances * (1.0F / radius))).maxCoeff());
-    }
-
-  private:
-    Eigen::Array<float, Eigen::Dynamic, 4> values_;
-    Eigen::Index count_ = 0;
-};
+constexpr float rounding = 1e-4F;
+constexpr std::size_t max_depth = 34;  // of halving 32 bit numbers of pixels
 
 class InterestFinder {
   public:
@@ -52,9 +32,9 @@ class InterestFinder {
           edge_distance_(static_cast<float>(settings.edge_distance)),
           changes_(find_narf_changes(image, borders,
                                      static_cast<float>(settings.min_surface_change), context)),
-          is_open_(find_narf_candidates(image, borders, changes_,
-                                        {radius_, edge_distance_ * radius_, min_interest_},
-                                        context)) {}
+          open_(find_narf_candidates(image, borders, changes_,
+                                     {radius_, edge_distance_ * radius_, min_interest_}, context)) {
+    }
 
     std::vector<float> find(const Context& context) {
         interest_.assign(image_.size(), 0.0F);
@@ -62,10 +42,11 @@ class InterestFinder {
         parallel_for(context, rows, strip_rows, [&](std::size_t begin, std::size_t end) {
             Workspace workspace;
             workspace.visited_by.assign(image_.size(), 0);
+            workspace.changes.resize(max_depth);
             workspace.begin = image_.index(0, static_cast<int>(begin));
             workspace.end = image_.index(0, static_cast<int>(end));
             for (std::size_t i = workspace.begin; i < workspace.end; ++i) {
-                if (is_open_[i] != 0) find_around({i, image_.column(i), image_.row(i)}, workspace);
+                if (open_[i] > 0.0F) find_around({i, image_.column(i), image_.row(i)}, workspace);
             }
         });
         return std::move(interest_);
@@ -76,6 +57,13 @@ class InterestFinder {
         std::size_t index;
         int x;
         int y;
+        float steadiness = 1.0F;  ///< at most
+    };
+
+    /// What counts for some pixels.
+    struct Changes {
+        std::vector<NearChange> all;
+        std::vector<NearChange> edges;  ///< that may spoil the interest, as if of one direction
     };
 
     /// Of one strip of the image, which is its own whatever other threads do.
@@ -87,33 +75,79 @@ class InterestFinder {
         std::vector<Pixel> queue;
         std::vector<Pixel> near;          ///< of the strip, which the seed answers for
         std::vector<std::size_t> around;  ///< where the surface changes
-        std::array<ChangeList, num_change_angles> changes;
-        ChangeList near_changes;  ///< that may be an edge beside a near pixel
+        std::vector<Changes> changes;     ///< per depth of the division of the near pixels
     };
 
     /// The interest of all candidates within a quarter of the support size of a seed, from the
     /// changes within three quarters that the surface reaches without leaving that ball.
     void find_around(const Pixel& seed, Workspace& work) {
         grow(seed, work);
-        sort_changes(seed, work);
-        for (const Pixel& pixel : work.near) {
-            interest_[pixel.index] = interest(pixel, work);
-            is_open_[pixel.index] = 0;
-        }
-    }
-
-    void sort_changes(const Pixel& seed, Workspace& work) const {
-        work.near_changes.clear();
-        for (ChangeList& list : work.changes)
-            list.clear();
+        Changes& changes = work.changes[0];
+        changes.all.clear();
+        changes.edges.clear();
         const float edge_reach = (0.5F + edge_distance_) * radius_;
         for (const std::size_t i : work.around) {
             const Eigen::Vector3f& point = image_.points[i];
-            work.changes[changes_.angles[i]].add(point, scores_[i]);
+            const Eigen::Array4f position = PointBox::position(point);
+            changes.all.push_back({position, scores_[i], changes_.angles[i]});
             if ((point - image_.points[seed.index]).squaredNorm() <= edge_reach * edge_reach) {
-                work.near_changes.add(point, scores_[i]);
+                changes.edges.push_back({position, scores_[i], 0});
             }
         }
+        for (const Pixel& pixel : work.near)
+            open_[pixel.index] = 0.0F;
+        divide(work.near, work, 0);
+    }
+
+    /// Sets the interest of pixels, given the changes that count for them.
+    void divide(std::span<Pixel> pixels, Workspace& work, std::size_t depth) {
+        PointBox box;
+        NarfBounds bounds;
+        float steadiness = 0.0F;
+        for (const Pixel& pixel : pixels) {
+            box.extend(image_.points[pixel.index]);
+            steadiness = std::max(steadiness, pixel.steadiness);
+            // The 3 x 3 pixels count in full.
+            for_beside(pixel, [&](const Pixel& other) {
+                if (!changes_.has_change(other.index)) return;
+                float& most = bounds.most[changes_.angles[other.index]];
+                most = std::max(most, scores_[other.index]);
+            });
+        }
+        const Changes& changes = work.changes[depth];
+        Changes& kept = work.changes[depth + 1];
+        bounds.add(changes.all, box, radius_, kept.all);
+        const float root = min_interest_ / steadiness;
+        AngleHistogram least;
+        const float best = bounds.best_pair(root * root, least);
+        if (best < root * root * (1.0F - rounding)) return;
+        NarfBounds edge;
+        edge.add(changes.edges, box, edge_distance_ * radius_, kept.edges);
+        steadiness = std::min(steadiness, narf_steadiness(edge.sure[0]));
+        const float interest = steadiness * std::sqrt(best);
+        if (interest < min_interest_ - rounding) return;
+        if (pixels.size() == 1) {
+            interest_[pixels.front().index] = interest;
+            return;
+        }
+        drop_weak(least, kept.all);
+        edge.best_pair(0.0F, least);
+        drop_weak(least, kept.edges);
+        const std::size_t half = split(pixels, box);
+        divide(pixels.first(half), work, depth + 1);
+        divide(pixels.subspan(half), work, depth + 1);
+    }
+
+    /// Halves pixels where their box is longest; returns the size of the first half.
+    std::size_t split(std::span<Pixel> pixels, const PointBox& box) const {
+        Eigen::Index axis = 0;
+        (box.high - box.low).maxCoeff(&axis);
+        const std::size_t half = pixels.size() / 2;
+        std::nth_element(pixels.begin(), pixels.begin() + static_cast<std::ptrdiff_t>(half),
+                         pixels.end(), [&](const Pixel& a, const Pixel& b) {
+                             return image_.points[a.index][axis] < image_.points[b.index][axis];
+                         });
+        return half;
     }
 
     void grow(const Pixel& seed, Workspace& work) const {
@@ -130,8 +164,8 @@ class InterestFinder {
             const std::size_t i = pixel.index;
             const float squared_distance = (image_.points[i] - center).squaredNorm();
             if (squared_distance <= near_reach * near_reach && i >= work.begin && i < work.end &&
-                is_open_[i] != 0) {
-                work.near.push_back(pixel);
+                open_[i] > 0.0F) {
+                work.near.push_back({i, pixel.x, pixel.y, open_[i]});
             }
             // The pixels beside the seed count however far apart the pixels are.
             const bool is_beside =
@@ -144,35 +178,6 @@ class InterestFinder {
                 if (changes_.is_surface[other.index] != 0) work.queue.push_back(other);
             });
         }
-    }
-
-    static float angle_change(const AngleHistogram& histogram) {
-        float most = 0.0F;
-        for (std::size_t a = 0; a + 1 < num_change_angles; ++a) {
-            if (histogram[a] <= most) continue;  // no product with it can be more
-            for (std::size_t b = a + 1; b < num_change_angles; ++b)
-                most = std::max(most, histogram[a] * histogram[b] * angle_difference(a, b));
-        }
-        return std::sqrt(most);
-    }
-
-    float interest(const Pixel& pixel, const Workspace& work) const {
-        const Eigen::Vector3f& point = image_.points[pixel.index];
-        const float edge = work.near_changes.most_at(point, edge_distance_ * radius_);
-        const float steadiness = narf_steadiness(edge);
-        if (steadiness < min_interest_) return 0.0F;
-        // The 3 x 3 pixels count in full.
-        AngleHistogram histogram{};
-        for_beside(pixel, [&](const Pixel& other) {
-            if (!changes_.has_change(other.index)) return;
-            float& value = histogram[changes_.angles[other.index]];
-            value = std::max(value, scores_[other.index]);
-        });
-        for (std::size_t angle = 0; angle < num_change_angles; ++angle) {
-            histogram[angle] =
-                std::max(histogram[angle], work.changes[angle].most_at(point, radius_));
-        }
-        return steadiness * angle_change(histogram);
     }
 
     /// Calls visit(pixel) for the 3 x 3 pixels.
@@ -192,7 +197,7 @@ class InterestFinder {
     float min_interest_;
     float edge_distance_;
     NarfChanges changes_;
-    std::vector<std::uint8_t> is_open_;  ///< is a candidate whose interest is not yet known
+    std::vector<float> open_;  ///< steadiness of candidates whose interest is not yet known
     std::vector<float> interest_;
 };
 
