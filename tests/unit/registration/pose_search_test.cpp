@@ -130,9 +130,8 @@ TEST(MeasureSupport, DetailsTellTheRightPoseFromOneThatTheShellLikesToo) {
     const PoseSupport right =
         measure_support(scans.source, scans.target, scans.target_from_source, tolerance);
     ASSERT_TRUE(right.free_space_is_known);
-    ASSERT_TRUE(right.detail_agreement());
     EXPECT_LT(right.contradiction(), 0.015);
-    EXPECT_GT(*right.detail_agreement(), 0.8);
+    EXPECT_GT(10 * right.detail.pieces.confirmed, 8 * right.detail.pieces.judged());
     EXPECT_GT(right.overlap(), 0.3);
 
     // Half a metre along a wall: floor, ceiling and two walls stay where they are.
@@ -141,14 +140,16 @@ TEST(MeasureSupport, DetailsTellTheRightPoseFromOneThatTheShellLikesToo) {
     const PoseSupport wrong = measure_support(scans.source, scans.target, slid, tolerance);
     EXPECT_GT(wrong.overlap(), 0.2);
     EXPECT_GT(wrong.contradiction(), 0.03);
-    EXPECT_LT(wrong.detail_agreement().value_or(0.0), 0.5);
-    EXPECT_GT(right.score(), wrong.score() + 0.1);
+    EXPECT_LT(2 * wrong.detail.pieces.confirmed, wrong.detail.pieces.judged());
+    EXPECT_GT(right.evidence(), 15.0);
+    EXPECT_LT(wrong.evidence(), 0.0);
 
     // Either scan may be the judge.
     const PoseSupport reversed =
         measure_support(scans.target, scans.source, scans.target_from_source.inverse(), tolerance);
     EXPECT_EQ(reversed.all().confirmed, right.all().confirmed);
     EXPECT_EQ(reversed.all().contradicted, right.all().contradicted);
+    EXPECT_EQ(reversed.evidence(), right.evidence());
 }
 
 }  // namespace

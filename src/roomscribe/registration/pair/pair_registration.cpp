@@ -113,7 +113,7 @@ std::vector<Transform> propose_from_surfaces(const PreparedScan& source, const P
                                              const RegistrationScale& scale,
                                              const PairRegistrationSettings& settings,
                                              const Context& context) {
-    constexpr std::size_t num_looked_at = 600;
+    constexpr std::size_t num_looked_at = 1000;
     std::vector<Transform> poses = search_poses(source, target, scale, context);
     poses = keep_best(poses, screen_poses(source, target, poses, scale, Screening::glance, context),
                       num_looked_at);
@@ -157,33 +157,39 @@ IcpSettings fine_settings(const RegistrationScale& scale,
             .kernel = settings.icp_kernel};
 }
 
-/// Fine alignment with a shrinking reach: wide enough to leave the coarse pose's error, then narrow
-/// enough that other surfaces do not pull.
-IcpResult refine(const PreparedScan& source, const PreparedScan& target, const Transform& guess,
-                 const RegistrationScale& scale, const PairRegistrationSettings& settings,
-                 const Context& context) {
+/// A settled pose drawn to the fine points: wide enough a reach to leave the coarse pose's error.
+IcpResult draw_in(const PreparedScan& source, const PreparedScan& target, const Transform& settled,
+                  const RegistrationScale& scale, const PairRegistrationSettings& settings,
+                  const Context& context) {
     IcpSettings icp = fine_settings(scale, settings);
     icp.max_correspondence_distance = 2.0 * scale.coarse_voxel;
-    const IcpResult wide =
-        align_icp(icp_source(source.coarse_sample), icp_target(target.fine), guess, icp, context);
-    return align_icp(icp_source(source.fine_sample), icp_target(target.fine),
-                     wide.target_from_source, fine_settings(scale, settings), context);
+    return align_icp(icp_source(source.coarse_sample), icp_target(target.fine), settled, icp,
+                     context);
 }
 
-void sort_by_score(std::vector<VerifiedPose>& poses) {
+/// The last step, with so narrow a reach that other surfaces do not pull.
+IcpResult refine(const PreparedScan& source, const PreparedScan& target, const Transform& drawn_in,
+                 const RegistrationScale& scale, const PairRegistrationSettings& settings,
+                 const Context& context) {
+    return align_icp(icp_source(source.fine_sample), icp_target(target.fine), drawn_in,
+                     fine_settings(scale, settings), context);
+}
+
+void sort_by_evidence(std::vector<VerifiedPose>& poses) {
     std::stable_sort(poses.begin(), poses.end(), [](const auto& a, const auto& b) {
-        return a.support.score() > b.support.score();
+        return a.support.evidence() > b.support.evidence();
     });
 }
 
-/// The different poses that the guesses lead to, refined, best supported first.
+/// The different poses that the guesses lead to, best supported first. The best is refined, and so
+/// is the next if it may be its rival.
 std::vector<VerifiedPose> verify_poses(const PreparedScan& source, const PreparedScan& target,
                                        std::span<const Transform> guesses,
                                        const RegistrationScale& scale,
                                        const PairRegistrationSettings& settings,
                                        const Context& context) {
-    // Coarse scores tell right from wrong but not one good pose from the next.
-    constexpr std::size_t num_refined = 4;
+    // Coarse evidence tells right from wrong but not one good pose from the next.
+    constexpr std::size_t num_drawn_in = 6;
     std::vector<VerifiedPose> poses;
     for (const Transform& guess : guesses) {
         const IcpResult icp = settle(source, target, guess, scale, settings, context);
@@ -196,38 +202,41 @@ std::vector<VerifiedPose> verify_poses(const PreparedScan& source, const Prepare
         poses.push_back({icp, measure_support(source, target, icp.target_from_source,
                                               coarse_tolerance(scale), context)});
     }
-    sort_by_score(poses);
+    sort_by_evidence(poses);
     // What a tenth contradicts even with a coarse pose's leeway will not be right after refinement:
     // the best alone is refined, for the record.
     const auto first_hopeless = std::stable_partition(
         poses.begin(), poses.end(),
         [](const VerifiedPose& pose) { return pose.support.contradiction() <= 0.1; });
     const auto num_hopeful = static_cast<std::size_t>(first_hopeless - poses.begin());
-    poses.resize(std::min({poses.size(), num_refined, std::max<std::size_t>(num_hopeful, 1)}));
-    for (VerifiedPose& pose : poses) {
-        pose.icp = refine(source, target, pose.icp.target_from_source, scale, settings, context);
+    poses.resize(std::min({poses.size(), num_drawn_in, std::max<std::size_t>(num_hopeful, 1)}));
+    const auto improve = [&](VerifiedPose& pose, auto step) {
+        pose.icp = step(source, target, pose.icp.target_from_source, scale, settings, context);
         pose.support = measure_support(source, target, pose.icp.target_from_source,
                                        fine_tolerance(scale), context);
+    };
+    for (VerifiedPose& pose : poses)
+        improve(pose, draw_in);
+    sort_by_evidence(poses);
+    for (std::size_t i = 0; i < std::min<std::size_t>(poses.size(), 2); ++i) {
+        if (i == 0 || poses[i].support.evidence() >= 0.0) improve(poses[i], refine);
     }
-    sort_by_score(poses);
+    sort_by_evidence(poses);
     return poses;
 }
 
-/// Whether the scans support the refined pose.
-bool is_supported(const PoseSupport& support, const PairRegistrationSettings& settings) {
+/// Whether the scans agree with the refined pose, if only because neither says much.
+bool is_tenable(const PoseSupport& support, const PairRegistrationSettings& settings) {
     const double min_agreement =
         support.free_space_is_known ? settings.min_agreement : settings.min_agreement_alone;
     return support.overlap() >= settings.min_overlap && support.agreement() >= min_agreement &&
-           support.detail_agreement().value_or(1.0) >= settings.min_detail_agreement &&
-           support.contradiction() <= settings.max_contradiction;
+           support.evidence() >= 0.0;
 }
 
-/// That a pose is right, given what the scans say of it: a logistic regression on pairs of
-/// simulated scans of all five scanners, with and without overlap (docs/registration.md).
-double probability_of(const PoseSupport& support) {
-    const double logit = 4.0 - 200.0 * std::min(support.contradiction(), 0.1) +
-                         6.0 * (support.detail_agreement().value_or(0.5) - 0.6);
-    return 1.0 / (1.0 + std::exp(-logit));
+/// That a pose is right, by its evidence and what that exceeds the best rival's by (pieces).
+double probability_of(double evidence, double lead) {
+    const auto logistic = [](double x) { return 1.0 / (1.0 + std::exp(-x)); };
+    return logistic(0.3 * (evidence - 8.0)) * logistic(0.3 * lead);
 }
 
 /// What a pose says of a pair, its verdict but for rivals.
@@ -247,11 +256,10 @@ RegistrationLink link_of(const VerifiedPose& pose, const PreparedScan& source,
         fine_settings(scale, settings), scale.noise, settings.covariance, context);
     link.covariance = uncertainty.covariance;
     link.unobservable = uncertainty.unobservable;
-    link.probability = probability_of(pose.support);
-    if (is_supported(pose.support, settings)) {
-        const bool is_bare = pose.support.detail_share() < settings.min_detail_share;
-        link.verdict = is_bare ? LinkVerdict::ambiguous : LinkVerdict::accepted;
-        if (is_bare) link.probability *= 0.5;
+    link.probability = probability_of(pose.support.evidence(), pose.support.evidence());
+    if (is_tenable(pose.support, settings)) {
+        link.verdict = pose.support.evidence() >= settings.min_evidence ? LinkVerdict::accepted
+                                                                        : LinkVerdict::ambiguous;
     }
     return link;
 }
@@ -261,11 +269,11 @@ const VerifiedPose* find_rival(const PreparedScan& source, std::span<const Verif
                                const RegistrationScale& scale,
                                const PairRegistrationSettings& settings) {
     const VerifiedPose& best = poses.front();
-    const double min_score = (1.0 - settings.min_lead) * best.support.score();
+    const double min_evidence = best.support.evidence() - settings.min_lead;
     const auto rival = std::find_if(poses.begin(), poses.end(), [&](const VerifiedPose& pose) {
         return different_poses(source, pose.icp.target_from_source, best.icp.target_from_source,
                                scale) &&
-               pose.support.score() > min_score;
+               is_tenable(pose.support, settings) && pose.support.evidence() > min_evidence;
     });
     return rival == poses.end() ? nullptr : &*rival;
 }
@@ -318,35 +326,19 @@ void PairRegistrationSettings::visit(SettingVisitor& visitor) {
              .min = 0.0,
              .max = 1.0,
              .doc = "The same where it is not known what the scanners' rays passed through."});
-    visitor(min_detail_agreement,
-            {.name = "min_detail_agreement",
+    visitor(min_evidence,
+            {.name = "min_evidence",
              .unit = "",
              .min = 0.0,
-             .max = 1.0,
-             .doc = "... or a smaller share of those that lie on no large plane."});
-    visitor(
-        min_detail_share,
-        {.name = "min_detail_share",
-         .unit = "",
-         .min = 0.0,
-         .max = 1.0,
-         .doc = "A link is ambiguous if a smaller share of those points lies on no large plane: "
-                "bare walls and floors agree in many ways."});
-    visitor(
-        max_contradiction,
-        {.name = "max_contradiction",
-         .unit = "",
-         .min = 0.0,
-         .max = 1.0,
-         .doc = "... or if more points than this, as a share of the confirmed ones, lie where the "
-                "other scan's rays passed."});
+             .max = 1e6,
+             .doc = "A link is ambiguous if fewer pieces of detail speak for it, net of those that "
+                    "speak against it, and rejected if more speak against it."});
     visitor(min_lead,
             {.name = "min_lead",
              .unit = "",
              .min = 0.0,
-             .max = 1.0,
-             .doc = "A link is ambiguous if a different pose comes this close to the best "
-                    "one's score (as a share of it)."});
+             .max = 1e6,
+             .doc = "A link is ambiguous if a different pose has as many pieces but for this."});
 }
 
 RegistrationLink register_pair(const PreparedScan& source, const PreparedScan& target,
@@ -360,7 +352,7 @@ RegistrationLink register_pair(const PreparedScan& source, const PreparedScan& t
                              settings, context);
     }
     const bool is_supported_already =
-        !poses.empty() && is_supported(poses.front().support, settings);
+        !poses.empty() && poses.front().support.evidence() >= settings.min_evidence;
     const bool is_listed = settings.initial_alignment == InitialAlignment::surfaces &&
                            faces_three_ways(source.directions) &&
                            faces_three_ways(target.directions);
@@ -371,7 +363,7 @@ RegistrationLink register_pair(const PreparedScan& source, const PreparedScan& t
                           scale, settings, context)) {
             poses.push_back(std::move(pose));
         }
-        sort_by_score(poses);
+        sort_by_evidence(poses);
     }
     if (poses.empty()) {
         RegistrationLink nothing;
@@ -383,7 +375,8 @@ RegistrationLink register_pair(const PreparedScan& source, const PreparedScan& t
     if (const VerifiedPose* rival = find_rival(source, poses, scale, settings)) {
         link.verdict = LinkVerdict::ambiguous;
         link.rival = rival->icp.target_from_source;
-        link.probability *= 0.5;  // either will do
+        const double evidence = poses.front().support.evidence();
+        link.probability = probability_of(evidence, evidence - rival->support.evidence());
     }
     return link;
 }
@@ -396,8 +389,10 @@ RegistrationLink register_pair_from(const PreparedScan& source, const PreparedSc
     check_settings(settings);
     const IcpResult settled =
         settle(source, target, target_from_source_guess, scale, settings, context);
+    const IcpResult drawn_in =
+        draw_in(source, target, settled.target_from_source, scale, settings, context);
     VerifiedPose pose;
-    pose.icp = refine(source, target, settled.target_from_source, scale, settings, context);
+    pose.icp = refine(source, target, drawn_in.target_from_source, scale, settings, context);
     pose.support = measure_support(source, target, pose.icp.target_from_source,
                                    fine_tolerance(scale), context);
     return link_of(pose, source, target, scale, settings, context);

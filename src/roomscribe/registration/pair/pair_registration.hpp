@@ -38,10 +38,8 @@ struct PairRegistrationSettings {
     double min_overlap = 0.1;
     double min_agreement = 0.5;
     double min_agreement_alone = 0.65;
-    double min_detail_agreement = 0.5;
-    double min_detail_share = 0.05;
-    double max_contradiction = 0.015;
-    double min_lead = 0.12;
+    double min_evidence = 15.0;
+    double min_lead = 10.0;
 
     void visit(SettingVisitor& visitor);
 };

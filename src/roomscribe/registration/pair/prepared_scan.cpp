@@ -2,6 +2,8 @@
 #include "roomscribe/registration/pair/prepared_scan.hpp"
 
 #include <algorithm>
+#include <array>
+#include <map>
 #include <numeric>
 
 #include "roomscribe/preprocessing/normal_estimation.hpp"
@@ -22,17 +24,32 @@ SurfacePoints clean_surface(const PointCloud& thinned, const Eigen::Vector3d& se
             std::move(tree)};
 }
 
+void append_point(const SurfacePoints& points, std::size_t index, OrientedPoints& sample) {
+    sample.positions.push_back(points.positions[index]);
+    sample.normals.push_back(points.normals[index]);
+    sample.deviations.push_back(points.deviations[index]);
+}
+
 /// Every n-th point with a normal, about so many.
 OrientedPoints sample_surface(const SurfacePoints& points, std::size_t sample_size) {
     const std::size_t stride = std::max<std::size_t>(1, points.positions.size() / sample_size);
     OrientedPoints sample;
     for (std::size_t i = 0; i < points.positions.size(); i += stride) {
-        if (!points.normals[i].allFinite()) continue;
-        sample.positions.push_back(points.positions[i]);
-        sample.normals.push_back(points.normals[i]);
-        sample.deviations.push_back(points.deviations[i]);
+        if (points.normals[i].allFinite()) append_point(points, i, sample);
     }
     return sample;
+}
+
+void number_pieces(WitnessSet& witnesses, double piece_size) {
+    std::map<std::array<int, 3>, std::uint32_t> numbers;
+    for (const Eigen::Vector3f& position : witnesses.points.positions) {
+        const Eigen::Vector3i cube =
+            (position.cast<double>() / piece_size).array().floor().cast<int>();
+        const auto next = static_cast<std::uint32_t>(numbers.size());
+        witnesses.pieces.push_back(
+            numbers.try_emplace({cube.x(), cube.y(), cube.z()}, next).first->second);
+    }
+    witnesses.num_pieces = numbers.size();
 }
 
 Witnesses choose_witnesses(const SurfacePoints& fine, const SurfacePoints& coarse,
@@ -43,12 +60,17 @@ Witnesses choose_witnesses(const SurfacePoints& fine, const SurfacePoints& coars
     constexpr double min_shell_area = 1.5;  // m2, of a door leaf
     const std::vector<ShellPlane> shell = find_shell(coarse.positions, coarse.normals, directions,
                                                      scale.coarse_voxel, min_shell_area);
-    Witnesses witnesses{sample_surface(fine, num_witnesses), {}};
-    for (std::size_t i = 0; i < witnesses.points.positions.size(); ++i) {
-        const bool is_shell = is_on_shell(shell, witnesses.points.positions[i],
-                                          witnesses.points.normals[i], 0.75 * scale.coarse_voxel);
-        witnesses.is_detail.push_back(is_shell ? 0 : 1);
+    const std::size_t stride = std::max<std::size_t>(1, fine.positions.size() / num_witnesses);
+    Witnesses witnesses;
+    for (std::size_t i = 0; i < fine.positions.size(); i += stride) {
+        if (!fine.normals[i].allFinite()) continue;
+        const bool is_shell =
+            is_on_shell(shell, fine.positions[i], fine.normals[i], 0.75 * scale.coarse_voxel);
+        append_point(fine, i, (is_shell ? witnesses.shell : witnesses.detail).points);
     }
+    const double piece_size = std::max(0.3, 3.0 * scale.coarse_voxel);
+    number_pieces(witnesses.shell, piece_size);
+    number_pieces(witnesses.detail, piece_size);
     return witnesses;
 }
 

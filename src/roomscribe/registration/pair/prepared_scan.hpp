@@ -30,10 +30,17 @@ struct OrientedPoints {
     std::vector<float> deviations;
 };
 
-/// Points of a scan that a pose is held against.
-struct Witnesses {
+/// Points of a scan that a pose is held against, and the pieces of surface they belong to: cubes of
+/// 0.3 m or three coarse voxels. Points of one piece are no independent witnesses.
+struct WitnessSet {
     OrientedPoints points;
-    std::vector<std::uint8_t> is_detail;  ///< 0: on the shell, one of the scan's large planes
+    std::vector<std::uint32_t> pieces;  ///< of every point, numbered from 0
+    std::size_t num_pieces = 0;
+};
+
+struct Witnesses {
+    WitnessSet shell;   ///< on one of the scan's large planes
+    WitnessSet detail;  ///< all others: furniture, reveals, what is small
 };
 
 /// Sizes that all scans of a job share, so that their descriptors can be compared.
