@@ -54,7 +54,7 @@ TEST(PrepareScan, HasTheFeaturesThatAreAskedFor) {
     EXPECT_EQ(combined.narf.positions, narf.narf.positions);
     EXPECT_EQ(combined.fpfh.positions, fpfh.fpfh.positions);
 
-    const NarfView view = find_narf_view(step.target, scale.narf_support);
+    const NarfView view = find_narf_view(step.target, {.support_size = scale.narf_support});
     ASSERT_LE(at_narf.fpfh.positions.size(), view.keypoints.size());
     EXPECT_GT(at_narf.fpfh.positions.size(), view.keypoints.size() / 2);
     // Outliers and thinning move some points, never many: a voxel's diagonal and a neighbour's.

@@ -8,10 +8,11 @@
 
 namespace roomscribe {
 
-NarfView find_narf_view(const Scan& scan, double support_size, const Context& context) {
+NarfView find_narf_view(const Scan& scan, const NarfKeypointSettings& settings,
+                        const Context& context) {
     NarfView view;
     view.image = make_range_image(scan, {.source = RangeImageSource::grid}, context);
-    view.keypoints = detect_narf_keypoints(view.image, {.support_size = support_size}, context);
+    view.keypoints = detect_narf_keypoints(view.image, settings, context);
     return view;
 }
 

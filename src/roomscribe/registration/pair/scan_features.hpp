@@ -52,7 +52,8 @@ struct NarfView {
     RangeImage image;  ///< from the scanner's grid, where there is one
     std::vector<NarfKeypoint> keypoints;
 };
-NarfView find_narf_view(const Scan& scan, double support_size, const Context& context = {});
+NarfView find_narf_view(const Scan& scan, const NarfKeypointSettings& settings = {},
+                        const Context& context = {});
 
 /// FPFH at points of the surface, by their numbers.
 DescribedPoints describe_by_fpfh(const SurfaceView& surface,
