@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <set>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Geometry>
@@ -95,14 +97,18 @@ Layout lay_out(const DrawnScan& target, const DrawnScan& source) {
     return layout;
 }
 
+/// One dot per pixel: a wall has many points one above the other.
 void append_dots(std::string& svg, const std::vector<Eigen::Vector2d>& points,
                  const Placement& place, const char* color) {
-    fmt::format_to(std::back_inserter(svg), "<path stroke=\"{}\" d=\"", color);
+    std::set<std::pair<long, long>> pixels;
     for (const Eigen::Vector2d& point : points) {
         if (!place.frame.contains(point)) continue;
         const Eigen::Vector2d at = place(point);
-        fmt::format_to(std::back_inserter(svg), "M{:.1f} {:.1f}h0", at.x(), at.y());
+        pixels.emplace(std::lround(at.y()), std::lround(at.x()));
     }
+    fmt::format_to(std::back_inserter(svg), "<path stroke=\"{}\" d=\"", color);
+    for (const auto& [y, x] : pixels)
+        fmt::format_to(std::back_inserter(svg), "M{} {}h0", x, y);
     svg += "\"/>\n";
 }
 
