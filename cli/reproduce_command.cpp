@@ -19,8 +19,7 @@ namespace {
 
 struct ReproduceOptions {
     std::array<std::vector<std::string>, 3> rows;  ///< two scans for each of table 1, or none
-    std::vector<std::string> pose_files;
-    JobOptions job;  ///< scans, threads, JSON
+    JobOptions job;                                ///< scans, threads, JSON
     std::uint64_t seed = 1;
     std::size_t num_pairs = 12;
     PairFeatures features = PairFeatures::fpfh_at_narf;

@@ -37,7 +37,7 @@ std::string number(double value, const char* pattern) {
     return std::isfinite(value) ? fmt::format(fmt::runtime(pattern), value) : "-";
 }
 
-std::string percent_of_ten(const std::optional<int>& count) {
+std::string out_of_ten(const std::optional<int>& count) {
     return count ? fmt::format("{}/10", *count) : "-";
 }
 
@@ -85,9 +85,9 @@ std::string table_1_text(const TableOne& rows, const RowSources& sources) {
         table.add_row({std::string(table_1_rows[i]), number(paper.seconds[0], "{:.2f}"),
                        number(ours.seconds[0], "{:.4f}"), number(paper.seconds[1], "{:.0f}"),
                        number(ours.seconds[1], "{:.4f}"), number(paper.fitness[0], "{:.3f}"),
-                       number(ours.fitness[0], "{:.3f}"), percent_of_ten(row.num_aligned[0]),
+                       number(ours.fitness[0], "{:.3f}"), out_of_ten(row.num_aligned[0]),
                        number(paper.fitness[1], "{:.3f}"), number(ours.fitness[1], "{:.3f}"),
-                       percent_of_ten(row.num_aligned[1]),
+                       out_of_ten(row.num_aligned[1]),
                        row.true_fitness ? number(*row.true_fitness, "{:.3f}") : "-",
                        number(row.num_points, "{:.0f}"), number(row.num_keypoints, "{:.0f}")});
         notes += fmt::format("{}: {}\n", table_1_rows[i], sources[i]);

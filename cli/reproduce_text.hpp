@@ -9,7 +9,7 @@
 
 namespace roomscribe::cli {
 
-/// Table 1 with a row per data set: empty where there was nothing to compare.
+/// Ours, a row per data set and per method.
 using TableOne = std::array<DescriptorComparison, 3>;
 using TableTwo = std::array<AlignmentComparison, 3>;
 

@@ -99,7 +99,8 @@ ScanFeatures describe_scan(const Scan& scan, const SurfaceView& surface,
                            const RegistrationScale& scale, PairFeatures features,
                            const Context& context) {
     NarfView view;
-    if (uses_narf_keypoints(features)) view = find_narf_view(scan, {.support_size = scale.narf_support}, context);
+    if (uses_narf_keypoints(features))
+        view = find_narf_view(scan, {.support_size = scale.narf_support}, context);
     ScanFeatures described;
     if (uses_narf(features)) {
         described.narf = describe_by_narf(view, surface, scale.narf_support, context);
