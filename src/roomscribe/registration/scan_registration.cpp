@@ -69,6 +69,10 @@ RegistrationScale derive_scale(std::span<const Scan> scans,
         "largest of the spacing, twice the noise, a quarter of the coarse voxel");
     scale.fpfh_radius = derive("registration.fpfh_radius", settings.fpfh_radius,
                                5.0 * scale.coarse_voxel, "five coarse voxels");
+    if (uses_narf_keypoints(settings.pair.features)) {
+        scale.narf_support = derive("registration.narf_support", settings.narf_support,
+                                    5.0 * scale.coarse_voxel, "five coarse voxels");
+    }
     return scale;
 }
 
@@ -178,6 +182,11 @@ void ScanRegistrationSettings::visit(SettingVisitor& visitor) {
                           .min = 1e-6,
                           .max = 1e6,
                           .doc = "Radius of the FPFH descriptors."});
+    visitor(narf_support, {.name = "narf_support",
+                           .unit = "m",
+                           .min = 1e-3,
+                           .max = 1e3,
+                           .doc = "Support size of NARF keypoints and descriptors."});
     visitor.group("pair", pair);
     visitor.group("graph", graph);
     visitor.group("optimization", optimization);
@@ -203,7 +212,7 @@ ScanRegistration register_scans(std::span<const Scan> scans,
     std::vector<PreparedScan> prepared;
     prepared.reserve(scans.size());
     for (const std::size_t scan : order) {
-        prepared.push_back(prepare_scan(scans[scan], scale, context));
+        prepared.push_back(prepare_scan(scans[scan], scale, settings.pair.features, context));
         context.report_progress(
             "prepare", static_cast<double>(prepared.size()) / static_cast<double>(scans.size()));
     }

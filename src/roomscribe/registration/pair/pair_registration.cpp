@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "roomscribe/registration/features/correspondence_rejection.hpp"
-#include "roomscribe/registration/features/correspondences.hpp"
+#include "roomscribe/registration/features/described_points.hpp"
 #include "roomscribe/registration/pair/pose_candidates.hpp"
 #include "roomscribe/registration/pair/pose_search.hpp"
 #include "roomscribe/registration/pair/pose_support.hpp"
@@ -32,20 +32,19 @@ struct VerifiedPose {
 };
 
 std::vector<PointMatch> match_scans(const PreparedScan& source, const PreparedScan& target,
+                                    const PairRegistrationSettings& settings,
                                     const Context& context) {
     std::vector<PointMatch> matches;
-    for (const Correspondence& match :
-         match_descriptors(source.descriptors, target.descriptors, {}, context)) {
-        const std::uint32_t source_point = source.keypoints[match.source];
-        const std::uint32_t target_point = target.keypoints[match.target];
-        matches.push_back({source.coarse.positions[source_point].cast<double>(),
-                           target.coarse.positions[target_point].cast<double>(),
-                           source.coarse.normals[source_point].cast<double>(),
-                           target.coarse.normals[target_point].cast<double>()});
+    if (uses_fpfh(settings.features)) {
+        matches =
+            match_points(source.fpfh, target.fpfh, {.method = settings.match_method}, context);
     }
-    std::erase_if(matches, [](const PointMatch& match) {
-        return !match.source_normal.allFinite() || !match.target_normal.allFinite();
-    });
+    if (uses_narf(settings.features)) {
+        const std::vector<PointMatch> more = match_points(
+            source.narf, target.narf,
+            {.method = settings.match_method, .metric = DescriptorMetric::manhattan}, context);
+        matches.insert(matches.end(), more.begin(), more.end());
+    }
     return matches;
 }
 
@@ -53,9 +52,9 @@ std::vector<Transform> propose_from_matches(const PreparedScan& source, const Pr
                                             const RegistrationScale& scale, std::uint64_t seed,
                                             const PairRegistrationSettings& settings,
                                             const Context& context) {
-    const std::vector<PointMatch> matches = match_scans(source, target, context);
+    const std::vector<PointMatch> matches = match_scans(source, target, settings, context);
     // Two voxel centroids of the same surface are up to about a voxel's diagonal apart.
-    const double tolerance = 1.5 * scale.coarse_voxel;
+    const double tolerance = settings.match_tolerance.value_or(1.5 * scale.coarse_voxel);
     std::vector<Transform> poses;
     if (settings.initial_alignment == InitialAlignment::sample_consensus) {
         const RejectionResult rejection =
@@ -289,6 +288,22 @@ void PairRegistrationSettings::visit(SettingVisitor& visitor) {
              "How poses are found: from descriptor matches by the paper's sample consensus or as "
              "several candidates from the compatibility graph, or from the scans' surfaces, "
              "and from the graph where these hold none."});
+    visitor(features,
+            {.name = "features",
+             .unit = "",
+             .doc = "What points are matched by: FPFH at distinctive points or at NARF keypoints, "
+                    "NARF, or the matches of fpfh and narf combined (the paper's)."});
+    visitor(match_method,
+            {.name = "match_method",
+             .unit = "",
+             .doc = "Every descriptor to its nearest, or only those that are nearest both ways."});
+    visitor(match_tolerance,
+            {.name = "match_tolerance",
+             .unit = "m",
+             .min = 1e-6,
+             .max = 1e6,
+             .doc = "How far a motion may leave the points of its matches apart; auto: 1.5 coarse "
+                    "voxels."});
     visitor(icp_method, {.name = "icp_method", .unit = "", .doc = "What ICP minimises."});
     visitor(icp_max_iterations,
             {.name = "icp_max_iterations",

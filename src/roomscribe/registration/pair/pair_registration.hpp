@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string_view>
 
@@ -30,9 +31,12 @@ inline std::span<const std::string_view> enumerator_names(InitialAlignment) {
 
 struct PairRegistrationSettings {
     InitialAlignment initial_alignment = InitialAlignment::surfaces;
+    PairFeatures features = PairFeatures::fpfh;
+    MatchMethod match_method = MatchMethod::back_and_forth;
+    std::optional<double> match_tolerance = {};
     IcpMethod icp_method = IcpMethod::generalized;
     RobustKernel icp_kernel = RobustKernel::tukey;
-    PoseCovarianceSettings covariance;
+    PoseCovarianceSettings covariance = {};
     int icp_max_iterations = 100;
     int max_candidates = 16;
     double min_overlap = 0.1;
@@ -46,7 +50,8 @@ struct PairRegistrationSettings {
 
 /// Two scans without any guess (the paper's Algorithm 1 and beyond): matches, candidate poses,
 /// verification of each against both scans, refinement by ICP, verdict. The link's scan numbers are
-/// left 0. A pair without overlap comes back rejected, with the best pose that was found.
+/// left 0. Precondition: both scans were prepared for settings.features. A pair without overlap
+/// comes back rejected, with the best pose that was found.
 RegistrationLink register_pair(const PreparedScan& source, const PreparedScan& target,
                                const RegistrationScale& scale, std::uint64_t seed,
                                const PairRegistrationSettings& settings = {},

@@ -76,13 +76,13 @@ Witnesses choose_witnesses(const SurfacePoints& fine, const SurfacePoints& coars
 
 /// Points whose histogram differs most from the scan's mean histogram: on bare walls and floors all
 /// histograms are alike and say nothing (persistence analysis, Rusu et al. 2008).
-std::vector<std::uint32_t> choose_distinctive(const FpfhDescriptors& descriptors) {
+std::vector<std::uint32_t> choose_distinctive(const Eigen::MatrixXf& descriptors) {
     // More matches cost more than they tell: pairs of matches are compared with each other.
     constexpr std::size_t max_keypoints = 2500;
     std::vector<std::uint32_t> order(static_cast<std::size_t>(descriptors.cols()));
     std::iota(order.begin(), order.end(), 0U);
     if (order.size() <= max_keypoints) return order;
-    const Eigen::Matrix<float, fpfh_size, 1> mean = descriptors.rowwise().mean();
+    const Eigen::VectorXf mean = descriptors.rowwise().mean();
     const Eigen::VectorXf distances = (descriptors.colwise() - mean).colwise().squaredNorm();
     std::stable_sort(order.begin(), order.end(), [&distances](std::uint32_t a, std::uint32_t b) {
         return distances[a] > distances[b];
@@ -92,9 +92,51 @@ std::vector<std::uint32_t> choose_distinctive(const FpfhDescriptors& descriptors
     return order;
 }
 
+DescribedPoints select_described(const DescribedPoints& all,
+                                 std::span<const std::uint32_t> indices) {
+    DescribedPoints selected;
+    selected.descriptors.resize(all.descriptors.rows(), static_cast<Eigen::Index>(indices.size()));
+    for (std::size_t i = 0; i < indices.size(); ++i) {
+        selected.positions.push_back(all.positions[indices[i]]);
+        selected.normals.push_back(all.normals[indices[i]]);
+        selected.descriptors.col(static_cast<Eigen::Index>(i)) = all.descriptors.col(indices[i]);
+    }
+    return selected;
+}
+
+DescribedPoints describe_distinctive(const SurfaceView& surface, double radius,
+                                     const Context& context) {
+    std::vector<std::uint32_t> candidates(surface.positions.size());
+    std::iota(candidates.begin(), candidates.end(), 0U);
+    const DescribedPoints all = describe_by_fpfh(surface, candidates, radius, context);
+    return select_described(all, choose_distinctive(all.descriptors));
+}
+
+struct ScanFeatures {
+    DescribedPoints fpfh;
+    DescribedPoints narf;
+};
+
+ScanFeatures describe_scan(const Scan& scan, const SurfaceView& surface,
+                           const RegistrationScale& scale, PairFeatures features,
+                           const Context& context) {
+    NarfView view;
+    if (uses_narf_keypoints(features))
+        view = find_narf_view(scan, {.support_size = scale.narf_support}, context);
+    ScanFeatures described;
+    if (uses_narf(features)) {
+        described.narf = describe_by_narf(view, surface, scale.narf_support, context);
+    }
+    described.fpfh = features == PairFeatures::fpfh_at_narf
+                         ? describe_by_fpfh(surface, nearest_points(surface, view.keypoints),
+                                            scale.fpfh_radius, context)
+                         : describe_distinctive(surface, scale.fpfh_radius, context);
+    return described;
+}
+
 }  // namespace
 
-PreparedScan prepare_scan(const Scan& scan, const RegistrationScale& scale,
+PreparedScan prepare_scan(const Scan& scan, const RegistrationScale& scale, PairFeatures features,
                           const Context& context) {
     const Eigen::Vector3d sensor_position = scan.sensor_position();
     const PointCloud fine_points =
@@ -103,15 +145,8 @@ PreparedScan prepare_scan(const Scan& scan, const RegistrationScale& scale,
         downsample_voxel_grid(fine_points, {.voxel_size = scale.coarse_voxel}, context).cloud;
     SurfacePoints fine = clean_surface(fine_points, sensor_position, context);
     SurfacePoints coarse = clean_surface(coarse_points, sensor_position, context);
-    std::vector<std::uint32_t> candidates(coarse.positions.size());
-    std::iota(candidates.begin(), candidates.end(), 0U);
-    const FpfhDescriptors all = compute_fpfh(coarse.positions, coarse.normals, coarse.tree,
-                                             candidates, {.radius = scale.fpfh_radius}, context);
-    std::vector<std::uint32_t> keypoints = choose_distinctive(all);
-    FpfhDescriptors descriptors(fpfh_size, static_cast<Eigen::Index>(keypoints.size()));
-    for (std::size_t i = 0; i < keypoints.size(); ++i) {
-        descriptors.col(static_cast<Eigen::Index>(i)) = all.col(keypoints[i]);
-    }
+    ScanFeatures described = describe_scan(scan, {coarse.positions, coarse.normals, coarse.tree},
+                                           scale, features, context);
 
     // Rims contradict up to a fifth of an honest but thin scan, a merged cloud a third of itself.
     constexpr double max_self_contradiction = 0.2;
@@ -133,8 +168,8 @@ PreparedScan prepare_scan(const Scan& scan, const RegistrationScale& scale,
             std::move(coarse_sample),
             std::move(fine_sample),
             std::move(witnesses),
-            std::move(keypoints),
-            std::move(descriptors),
+            std::move(described.fpfh),
+            std::move(described.narf),
             spread,
             FreeSpace(scan.cloud.positions, sensor_position, 2.5),
             free_space_is_valid,

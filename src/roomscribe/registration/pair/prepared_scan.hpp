@@ -9,8 +9,9 @@
 #include "roomscribe/core/context.hpp"
 #include "roomscribe/geometry/search_tree.hpp"
 #include "roomscribe/model/scan.hpp"
-#include "roomscribe/registration/features/fpfh_descriptor.hpp"
+#include "roomscribe/registration/features/described_points.hpp"
 #include "roomscribe/registration/pair/free_space.hpp"
+#include "roomscribe/registration/pair/scan_features.hpp"
 #include "roomscribe/registration/pair/surface_directions.hpp"
 #include "roomscribe/registration/pair/surface_grid.hpp"
 
@@ -48,6 +49,7 @@ struct RegistrationScale {
     double coarse_voxel = 0.1;  ///< m, of the points that are matched
     double fine_voxel = 0.05;   ///< m, of the points that are aligned
     double fpfh_radius = 0.5;   ///< m
+    double narf_support = 0.5;  ///< m
     double noise = 0.01;        ///< m
 };
 
@@ -55,12 +57,12 @@ struct RegistrationScale {
 struct PreparedScan {
     SurfacePoints coarse;
     SurfacePoints fine;
-    OrientedPoints coarse_sample;          ///< some of the coarse points, spread evenly
-    OrientedPoints fine_sample;            ///< some of the fine points, spread evenly
-    Witnesses witnesses;                   ///< some of the fine points, spread evenly
-    std::vector<std::uint32_t> keypoints;  ///< numbers of coarse points
-    FpfhDescriptors descriptors;           ///< one column per keypoint
-    PointSpread spread;                    ///< of the coarse points
+    OrientedPoints coarse_sample;  ///< some of the coarse points, spread evenly
+    OrientedPoints fine_sample;    ///< some of the fine points, spread evenly
+    Witnesses witnesses;           ///< some of the fine points, spread evenly
+    DescribedPoints fpfh;          ///< some of the coarse points
+    DescribedPoints narf;          ///< empty unless the features want them
+    PointSpread spread;            ///< of the coarse points
     FreeSpace free_space;
     /// The rays really start at the sensor position: what they passed through may be used.
     bool free_space_is_valid = false;
@@ -68,9 +70,10 @@ struct PreparedScan {
     std::vector<SurfaceDirection> directions;  ///< of the coarse points
 };
 
-/// Voxel grid, outlier removal, normals, keypoints, FPFH (steps 1 and 2 of the paper's Algorithm
-/// 1).
+/// Voxel grid, outlier removal, normals, keypoints, descriptors (steps 1 and 2 of the paper's
+/// Algorithm 1). FPFH is always there, since it also says which scans may show the same place: at
+/// NARF keypoints for `fpfh_at_narf`, else at the most distinctive points.
 PreparedScan prepare_scan(const Scan& scan, const RegistrationScale& scale,
-                          const Context& context = {});
+                          PairFeatures features = PairFeatures::fpfh, const Context& context = {});
 
 }  // namespace roomscribe
