@@ -9,6 +9,7 @@
 
 #include "roomscribe/core/random.hpp"
 #include "roomscribe/core/units.hpp"
+#include "roomscribe/registration/pair/pose_screening.hpp"
 #include "roomscribe/registration/pair/pose_support.hpp"
 #include "support/simulated_rooms.hpp"
 
@@ -106,7 +107,7 @@ TEST(SearchPoses, ListsTheRightOneAndScreeningPutsItFirst) {
     };
     ASSERT_FALSE(poses.empty());
     const std::vector<double> scores =
-        screen_poses(scans.source, scans.target, poses, scans.scale, Screening::look);
+        screen_poses(scans.source, scans.target, poses, scans.scale, {});
     const auto best = std::max_element(scores.begin(), scores.end()) - scores.begin();
     EXPECT_LT(off_by(poses[static_cast<std::size_t>(best)]), 2.0 * scans.scale.coarse_voxel);
 }

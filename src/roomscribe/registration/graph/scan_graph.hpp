@@ -17,7 +17,7 @@
 namespace roomscribe {
 
 struct ScanGraphSettings {
-    int max_partners = 5;
+    int max_partners = 8;
     int max_closures = 4;
 
     void visit(SettingVisitor& visitor) {

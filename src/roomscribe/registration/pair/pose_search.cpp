@@ -225,7 +225,7 @@ std::vector<double> list_slides(const PreparedScan& source, const PreparedScan& 
 /// The pairs of shifts along two axes that bring most surface together.
 std::vector<std::pair<double, double>> best_pairs(std::span<const ShiftCandidate> first,
                                                   std::span<const ShiftCandidate> second) {
-    constexpr std::size_t max_pairs = 12;
+    constexpr std::size_t max_pairs = 6;
     std::vector<std::pair<ShiftCandidate, ShiftCandidate>> all;
     for (const ShiftCandidate& a : first) {
         for (const ShiftCandidate& b : second)

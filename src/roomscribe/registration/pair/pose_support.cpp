@@ -11,9 +11,6 @@
 namespace roomscribe {
 namespace {
 
-/// Normals of one surface, each estimated from another scan's points.
-constexpr double min_normal_cosine = 0.707;
-
 double share(double part, std::size_t whole) {
     return whole == 0 ? 0.0 : part / static_cast<double>(whole);
 }
@@ -40,7 +37,7 @@ Outcome hear(const PreparedScan& judge, const Eigen::Vector3d& place, const Eige
         return is_contradicted ? Outcome::contradicted : Outcome::unseen;
     }
     const Eigen::Vector3d judge_normal = judge.fine.normals[index].cast<double>();
-    if (!(normal.dot(judge_normal) >= min_normal_cosine)) return Outcome::unseen;
+    if (!(normal.dot(judge_normal) >= same_surface_cosine)) return Outcome::unseen;
     const double off_plane = judge_normal.dot(place - judge.fine.positions[index].cast<double>());
     // Far from a depth camera the surface itself is rough.
     const double roughness = std::hypot(static_cast<double>(deviation),
@@ -84,48 +81,6 @@ WitnessCount hear_all(const WitnessSet& witnesses, std::size_t stride, const Pre
     return result;
 }
 
-/// The mean over about so many witnesses of 1 for each that is confirmed, and of so much less for
-/// each contradicted one.
-double screen_witnesses(const OrientedPoints& witnesses, const PreparedScan& judge,
-                        const Eigen::Isometry3f& judge_from_seen, std::size_t num_witnesses,
-                        const RegistrationScale& scale) {
-    // As in PoseSupport::evidence, and less because a guess may be off by half a voxel.
-    constexpr double contradicted = -4.0;
-    const std::size_t stride = std::max<std::size_t>(1, witnesses.positions.size() / num_witnesses);
-    const auto max_off_plane = static_cast<float>(0.5 * scale.coarse_voxel);
-    double sum = 0.0;
-    std::size_t count = 0;
-    for (std::size_t i = 0; i < witnesses.positions.size(); i += stride) {
-        const Eigen::Vector3f place = judge_from_seen * witnesses.positions[i];
-        ++count;
-        if (const auto near = judge.coarse_grid.near(place)) {
-            const Eigen::Vector3f& normal = judge.coarse.normals[*near];
-            const bool agrees =
-                (judge_from_seen.linear() * witnesses.normals[i]).dot(normal) >=
-                    min_normal_cosine &&
-                std::abs(normal.dot(place - judge.coarse.positions[*near])) <= max_off_plane;
-            sum += agrees ? 1.0 : 0.0;
-        } else if (judge.free_space_is_valid &&
-                   judge.free_space.look_at(place.cast<double>(), scale.coarse_voxel) ==
-                       Visibility::free) {
-            sum += contradicted;
-        }
-    }
-    return share(sum, count);
-}
-
-double screen_one_way(const PreparedScan& seen, const PreparedScan& judge,
-                      const Transform& judge_from_seen, std::size_t num_witnesses,
-                      const RegistrationScale& scale) {
-    constexpr double detail_weight = 0.7;
-    const Eigen::Isometry3f motion = judge_from_seen.cast<float>();
-    const auto screen = [&](const WitnessSet& witnesses) {
-        return screen_witnesses(witnesses.points, judge, motion, num_witnesses / 2, scale);
-    };
-    return (1.0 - detail_weight) * screen(seen.witnesses.shell) +
-           detail_weight * screen(seen.witnesses.detail);
-}
-
 }  // namespace
 
 WitnessTally& WitnessTally::operator+=(const WitnessTally& other) {
@@ -167,14 +122,13 @@ double PoseSupport::contradiction() const {
 double PoseSupport::evidence() const {
     // Log-likelihood ratios of right against wrong poses, in units of a confirmed detail's
     // (docs/registration.md). Wrong poses were chosen because they bring large planes together, so
-    // these say little for a pose; rays that passed speak alike against either.
-    constexpr double displaced_detail = -0.3;
+    // these say little for a pose; rays that passed speak alike against either. What is displaced
+    // says nothing: blurred surfaces are displaced at the right pose, too.
     constexpr double confirmed_shell = 0.02;
     constexpr double contradicted = -6.0;
     const auto number = [](std::size_t count) { return static_cast<double>(count); };
     return 0.5 *
-           (number(detail.pieces.confirmed) + displaced_detail * number(detail.pieces.displaced) +
-            confirmed_shell * number(shell.pieces.confirmed) +
+           (number(detail.pieces.confirmed) + confirmed_shell * number(shell.pieces.confirmed) +
             contradicted * number(detail.pieces.contradicted + shell.pieces.contradicted));
 }
 
@@ -215,22 +169,6 @@ PoseSupport measure_support(const PreparedScan& source, const PreparedScan& targ
     add(source, target, target_from_source);
     add(target, source, target_from_source.inverse());
     return support;
-}
-
-std::vector<double> screen_poses(const PreparedScan& source, const PreparedScan& target,
-                                 std::span<const Transform> poses, const RegistrationScale& scale,
-                                 Screening screening, const Context& context) {
-    std::vector<double> scores(poses.size());
-    const auto screen = [&](const Transform& pose) {
-        if (screening == Screening::glance) return screen_one_way(source, target, pose, 40, scale);
-        return screen_one_way(source, target, pose, 300, scale) +
-               screen_one_way(target, source, pose.inverse(), 300, scale);
-    };
-    parallel_for(context, poses.size(), 64, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i)
-            scores[i] = screen(poses[i]);
-    });
-    return scores;
 }
 
 }  // namespace roomscribe

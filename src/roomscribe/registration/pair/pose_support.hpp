@@ -51,7 +51,7 @@ struct PoseSupport {
     /// Contradicted as a share of the confirmed ones.
     double contradiction() const;
     /// What poses are ranked and judged by, in confirmed pieces of detail: these, less the
-    /// displaced and contradicted pieces by their weights, and a little for the shell's. Counts of
+    /// contradicted pieces by their weight, and a little for the shell's. Counts of
     /// both scans' pieces are halved, because most of them see the same place.
     double evidence() const;
 };
@@ -74,16 +74,5 @@ SupportTolerance fine_tolerance(const RegistrationScale& scale);
 PoseSupport measure_support(const PreparedScan& source, const PreparedScan& target,
                             const Transform& target_from_source, const SupportTolerance& tolerance,
                             const Context& context = {});
-
-enum class Screening : std::uint8_t {
-    glance,  ///< 40 witnesses of the source: what brings no surfaces together falls out
-    look     ///< 300 witnesses of either scan
-};
-
-/// Confirmed less contradicted as a share of some witnesses, half of them details and these
-/// counting more, by nearby points instead of nearest ones: a quick score for each of many poses.
-std::vector<double> screen_poses(const PreparedScan& source, const PreparedScan& target,
-                                 std::span<const Transform> poses, const RegistrationScale& scale,
-                                 Screening screening, const Context& context = {});
 
 }  // namespace roomscribe

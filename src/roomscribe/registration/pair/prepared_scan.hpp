@@ -17,6 +17,10 @@
 
 namespace roomscribe {
 
+/// Two normals at least this near to each other may be of one surface, each estimated from another
+/// scan's points: 45 degrees.
+inline constexpr double same_surface_cosine = 0.707;
+
 /// A scan thinned to one spacing, with normals towards the scanner.
 struct SurfacePoints {
     std::vector<Eigen::Vector3f> positions;
