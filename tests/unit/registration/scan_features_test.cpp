@@ -77,7 +77,7 @@ TEST(RegisterPair, FindsThePoseByEveryKindOfFeatures) {
              {InitialAlignment::sample_consensus, InitialAlignment::compatibility_graph}) {
             const PairRegistrationSettings settings{.initial_alignment = method,
                                                     .features = features};
-            const RegistrationLink link = register_pair(source, target, scale, 1, settings);
+            const RegistrationLink link = register_pair(source, target, 1, settings);
             EXPECT_EQ(link.verdict, LinkVerdict::accepted)
                 << static_cast<int>(features) << " " << static_cast<int>(method);
             EXPECT_THAT(link.target_from_source,

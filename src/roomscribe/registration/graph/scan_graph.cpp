@@ -77,7 +77,7 @@ class LinkFinder {
     void register_without_guess(std::size_t source, std::size_t target) {
         context_.throw_if_cancelled();
         RegistrationLink link =
-            register_pair(scans_[source], scans_[target], scale_, seed_, pair_, context_);
+            register_pair(scans_[source], scans_[target], seed_, pair_, context_);
         link.source = source;
         link.target = target;
         links_.push_back(std::move(link));
@@ -86,9 +86,8 @@ class LinkFinder {
     /// Empty if the scans do not bear the guess out.
     std::optional<RegistrationLink> register_with_guess(const NearbyPair& pair) const {
         context_.throw_if_cancelled();
-        RegistrationLink link =
-            register_pair_from(scans_[pair.source], scans_[pair.target], pair.target_from_source,
-                               scale_, pair_, context_);
+        RegistrationLink link = register_pair_from(scans_[pair.source], scans_[pair.target],
+                                                   pair.target_from_source, pair_, context_);
         link.source = pair.source;
         link.target = pair.target;
         if (link.verdict != LinkVerdict::accepted) return std::nullopt;

@@ -69,9 +69,10 @@ const VerifiedPose* find_rival(const PreparedScan& source, std::span<const Verif
 }  // namespace
 
 RegistrationLink register_pair(const PreparedScan& source, const PreparedScan& target,
-                               const RegistrationScale& scale, std::uint64_t seed,
-                               const PairRegistrationSettings& settings, const Context& context) {
+                               std::uint64_t seed, const PairRegistrationSettings& settings,
+                               const Context& context) {
     check_settings(settings);
+    const RegistrationScale scale = joint_scale(source, target);
     std::vector<VerifiedPose> poses;
     if (settings.initial_alignment == InitialAlignment::surfaces) {
         poses = verify_poses(source, target,
@@ -110,10 +111,10 @@ RegistrationLink register_pair(const PreparedScan& source, const PreparedScan& t
 
 RegistrationLink register_pair_from(const PreparedScan& source, const PreparedScan& target,
                                     const Transform& target_from_source_guess,
-                                    const RegistrationScale& scale,
                                     const PairRegistrationSettings& settings,
                                     const Context& context) {
     check_settings(settings);
+    const RegistrationScale scale = joint_scale(source, target);
     const VerifiedPose pose =
         verify_pose(source, target, target_from_source_guess, scale, settings, context);
     return link_of(pose, source, target, scale, settings, context);

@@ -15,15 +15,13 @@ namespace roomscribe {
 /// left 0. Precondition: both scans were prepared for settings.features. A pair without overlap
 /// comes back rejected, with the best pose that was found.
 RegistrationLink register_pair(const PreparedScan& source, const PreparedScan& target,
-                               const RegistrationScale& scale, std::uint64_t seed,
-                               const PairRegistrationSettings& settings = {},
+                               std::uint64_t seed, const PairRegistrationSettings& settings = {},
                                const Context& context = {});
 
 /// Two scans whose relative pose is known to the reach of ICP, three coarse voxels: refinement from
 /// there and the verdict of register_pair, but for the search for rivals.
 RegistrationLink register_pair_from(const PreparedScan& source, const PreparedScan& target,
                                     const Transform& target_from_source_guess,
-                                    const RegistrationScale& scale,
                                     const PairRegistrationSettings& settings = {},
                                     const Context& context = {});
 

@@ -236,6 +236,7 @@ std::vector<std::pair<double, double>> best_pairs(std::span<const ShiftCandidate
     });
     all.resize(std::min(all.size(), max_pairs));
     std::vector<std::pair<double, double>> pairs;
+    pairs.reserve(all.size());
     for (const auto& [a, b] : all)
         pairs.emplace_back(a.shift, b.shift);
     return pairs;

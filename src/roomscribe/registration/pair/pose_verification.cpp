@@ -17,31 +17,24 @@ IcpTarget icp_target(const SurfacePoints& points) {
     return {points.positions, points.normals, points.tree};
 }
 
-IcpSettings fine_settings(const RegistrationScale& scale,
-                          const PairRegistrationSettings& settings) {
-    return {.method = settings.icp_method,
-            .max_correspondence_distance = 2.0 * scale.fine_voxel,
-            .max_iterations = settings.icp_max_iterations,
-            // A step of a tenth of the noise is about what the data can tell.
-            .min_error_change = 1e-2 * std::max(scale.noise, 1e-3),
-            .kernel = settings.icp_kernel};
-}
-
 namespace {
+
+/// ICP of the chosen method between points with such a spacing.
+IcpSettings settings_for(double spacing, double reach, const PairRegistrationSettings& settings) {
+    IcpSettings icp{.method = settings.icp_method, .max_correspondence_distance = reach};
+    // Along the surface the nearest sample is no farther than the spacing.
+    if (icp.method != IcpMethod::point_to_point) icp.max_offset_along_surface = spacing;
+    return icp;
+}
 
 /// A guess, settled by ICP. A share of the coarse points is enough to find the valley it lies in.
 IcpResult settle(const PreparedScan& source, const PreparedScan& target, const Transform& guess,
                  const RegistrationScale& scale, const PairRegistrationSettings& settings,
                  const Context& context) {
-    // From afar the normals of one side say enough; those of both hold a pose back.
-    const IcpMethod method = settings.icp_method == IcpMethod::point_to_point
-                                 ? IcpMethod::point_to_point
-                                 : IcpMethod::point_to_plane;
-    return align_icp(icp_source(source.coarse_sample), icp_target(target.coarse), guess,
-                     {.method = method,
-                      .max_correspondence_distance = icp_reach(scale),
-                      .max_iterations = 30,
-                      .min_error_change = 1e-2 * scale.coarse_voxel},
+    IcpSettings icp = settings_for(scale.coarse_voxel, icp_reach(scale), settings);
+    icp.max_iterations = 30;
+    icp.min_error_change = 1e-2 * scale.coarse_voxel;
+    return align_icp(icp_source(source.coarse_sample), icp_target(target.coarse), guess, icp,
                      context);
 }
 
@@ -64,6 +57,16 @@ IcpResult refine(const PreparedScan& source, const PreparedScan& target, const T
 }
 
 }  // namespace
+
+IcpSettings fine_settings(const RegistrationScale& scale,
+                          const PairRegistrationSettings& settings) {
+    IcpSettings icp = settings_for(scale.fine_voxel, 2.0 * scale.fine_voxel, settings);
+    icp.max_iterations = settings.icp_max_iterations;
+    // A step of a tenth of the noise is about what the data can tell.
+    icp.min_error_change = 1e-2 * std::max(scale.noise, 1e-3);
+    icp.kernel = settings.icp_kernel;
+    return icp;
+}
 
 bool are_different(const PreparedScan& source, const Transform& a, const Transform& b,
                    const RegistrationScale& scale) {

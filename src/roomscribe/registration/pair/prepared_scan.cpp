@@ -136,6 +136,13 @@ ScanFeatures describe_scan(const Scan& scan, const SurfaceView& surface,
 
 }  // namespace
 
+RegistrationScale joint_scale(const PreparedScan& a, const PreparedScan& b) {
+    RegistrationScale scale = a.scale;
+    scale.fine_voxel = std::max(scale.fine_voxel, b.scale.fine_voxel);
+    scale.noise = std::max(scale.noise, b.scale.noise);
+    return scale;
+}
+
 PreparedScan prepare_scan(const Scan& scan, const RegistrationScale& scale, PairFeatures features,
                           const Context& context) {
     const Eigen::Vector3d sensor_position = scan.sensor_position();
@@ -163,7 +170,8 @@ PreparedScan prepare_scan(const Scan& scan, const RegistrationScale& scale, Pair
     SurfaceGrid coarse_grid(coarse.positions, scale.coarse_voxel);
     std::vector<SurfaceDirection> directions = find_surface_directions(coarse.normals);
     Witnesses witnesses = choose_witnesses(fine, coarse, directions, scale);
-    return {std::move(coarse),
+    return {scale,
+            std::move(coarse),
             std::move(fine),
             std::move(coarse_sample),
             std::move(fine_sample),

@@ -48,17 +48,19 @@ struct Witnesses {
     WitnessSet detail;  ///< all others: furniture, reveals, what is small
 };
 
-/// Sizes that all scans of a job share, so that their descriptors can be compared.
+/// Sizes that follow from the scans. Those marked are shared by all scans of a job, so that their
+/// descriptors can be compared.
 struct RegistrationScale {
-    double coarse_voxel = 0.1;  ///< m, of the points that are matched
+    double coarse_voxel = 0.1;  ///< m, of the points that are matched; shared
     double fine_voxel = 0.05;   ///< m, of the points that are aligned
-    double fpfh_radius = 0.5;   ///< m
-    double narf_support = 0.5;  ///< m
+    double fpfh_radius = 0.5;   ///< m; shared
+    double narf_support = 0.5;  ///< m; shared
     double noise = 0.01;        ///< m
 };
 
 /// All that registration needs of a scan, computed once however many partners it meets.
 struct PreparedScan {
+    RegistrationScale scale;
     SurfacePoints coarse;
     SurfacePoints fine;
     OrientedPoints coarse_sample;  ///< some of the coarse points, spread evenly
@@ -73,6 +75,9 @@ struct PreparedScan {
     SurfaceGrid coarse_grid;                   ///< over the coarse points
     std::vector<SurfaceDirection> directions;  ///< of the coarse points
 };
+
+/// The noise and the spacing of the worse of two scans.
+RegistrationScale joint_scale(const PreparedScan& a, const PreparedScan& b);
 
 /// Voxel grid, outlier removal, normals, keypoints, descriptors (steps 1 and 2 of the paper's
 /// Algorithm 1). FPFH is always there, since it also says which scans may show the same place: at
