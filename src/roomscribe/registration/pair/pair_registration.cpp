@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "roomscribe/registration/pair/pair_registration.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <utility>
 #include <vector>
 
+#include "roomscribe/registration/pair/pose_probability.hpp"
 #include "roomscribe/registration/pair/pose_proposal.hpp"
 #include "roomscribe/registration/pair/pose_search.hpp"
 #include "roomscribe/registration/pair/pose_verification.hpp"
@@ -21,16 +20,18 @@ bool is_tenable(const PoseSupport& support, const PairRegistrationSettings& sett
            support.evidence() >= 0.0;
 }
 
-/// That a pose is right, by its evidence and what that exceeds the best rival's by (pieces).
-double probability_of(double evidence, double lead) {
-    const auto logistic = [](double x) { return 1.0 / (1.0 + std::exp(-x)); };
-    return logistic(0.3 * (evidence - 8.0)) * logistic(0.3 * lead);
+LinkVerdict verdict_of(const PoseSupport& support, const PoseStanding& standing,
+                       const PairRegistrationSettings& settings) {
+    if (!is_tenable(support, settings)) return LinkVerdict::rejected;
+    if (probability_of(standing) >= settings.min_probability) return LinkVerdict::accepted;
+    return probability_without_rivals(standing) >= 0.5 ? LinkVerdict::ambiguous
+                                                       : LinkVerdict::rejected;
 }
 
-/// What a pose says of a pair, its verdict but for rivals.
-RegistrationLink link_of(const VerifiedPose& pose, const PreparedScan& source,
-                         const PreparedScan& target, const RegistrationScale& scale,
-                         const PairRegistrationSettings& settings, const Context& context) {
+RegistrationLink link_of(const VerifiedPose& pose, const PoseStanding& standing,
+                         const PreparedScan& source, const PreparedScan& target,
+                         const RegistrationScale& scale, const PairRegistrationSettings& settings,
+                         const Context& context) {
     RegistrationLink link;
     link.target_from_source = pose.icp.target_from_source;
     link.rmse = pose.icp.rmse;
@@ -44,26 +45,26 @@ RegistrationLink link_of(const VerifiedPose& pose, const PreparedScan& source,
         fine_settings(scale, settings), scale.noise, settings.covariance, context);
     link.covariance = uncertainty.covariance;
     link.unobservable = uncertainty.unobservable;
-    link.probability = probability_of(pose.support.evidence(), pose.support.evidence());
-    if (is_tenable(pose.support, settings)) {
-        link.verdict = pose.support.evidence() >= settings.min_evidence ? LinkVerdict::accepted
-                                                                        : LinkVerdict::ambiguous;
-    }
+    link.probability = probability_of(standing);
+    link.verdict = verdict_of(pose.support, standing, settings);
     return link;
 }
 
-/// The best different pose that would do as well.
-const VerifiedPose* find_rival(const PreparedScan& source, std::span<const VerifiedPose> poses,
-                               const RegistrationScale& scale,
-                               const PairRegistrationSettings& settings) {
+/// The different poses that the scans bear out, too.
+std::vector<const VerifiedPose*> find_rivals(const PreparedScan& source,
+                                             std::span<const VerifiedPose> poses,
+                                             const RegistrationScale& scale,
+                                             const PairRegistrationSettings& settings) {
     const VerifiedPose& best = poses.front();
-    const double min_evidence = best.support.evidence() - settings.min_lead;
-    const auto rival = std::find_if(poses.begin(), poses.end(), [&](const VerifiedPose& pose) {
-        return are_different(source, pose.icp.target_from_source, best.icp.target_from_source,
-                             scale) &&
-               is_tenable(pose.support, settings) && pose.support.evidence() > min_evidence;
-    });
-    return rival == poses.end() ? nullptr : &*rival;
+    std::vector<const VerifiedPose*> rivals;
+    for (const VerifiedPose& pose : poses) {
+        if (is_tenable(pose.support, settings) &&
+            are_different(source, pose.icp.target_from_source, best.icp.target_from_source,
+                          scale)) {
+            rivals.push_back(&pose);
+        }
+    }
+    return rivals;
 }
 
 }  // namespace
@@ -79,8 +80,9 @@ RegistrationLink register_pair(const PreparedScan& source, const PreparedScan& t
                              propose_from_surfaces(source, target, scale, settings, context), scale,
                              settings, context);
     }
+    constexpr double enough_evidence = 15.0;
     const bool is_supported_already =
-        !poses.empty() && poses.front().support.evidence() >= settings.min_evidence;
+        !poses.empty() && poses.front().support.evidence() >= enough_evidence;
     const bool is_listed = settings.initial_alignment == InitialAlignment::surfaces &&
                            faces_three_ways(source.directions) &&
                            faces_three_ways(target.directions);
@@ -98,13 +100,14 @@ RegistrationLink register_pair(const PreparedScan& source, const PreparedScan& t
         nothing.stop_reason = "no_candidate";
         return nothing;
     }
-    RegistrationLink link = link_of(poses.front(), source, target, scale, settings, context);
-    if (link.verdict != LinkVerdict::accepted) return link;
-    if (const VerifiedPose* rival = find_rival(source, poses, scale, settings)) {
-        link.verdict = LinkVerdict::ambiguous;
-        link.rival = rival->icp.target_from_source;
-        const double evidence = poses.front().support.evidence();
-        link.probability = probability_of(evidence, evidence - rival->support.evidence());
+    const std::vector<const VerifiedPose*> rivals = find_rivals(source, poses, scale, settings);
+    const double evidence = poses.front().support.evidence();
+    const double best_rival = rivals.empty() ? 0.0 : rivals.front()->support.evidence();
+    RegistrationLink link = link_of(poses.front(), {evidence, evidence - best_rival, is_listed},
+                                    source, target, scale, settings, context);
+    if (link.verdict == LinkVerdict::ambiguous) {
+        for (const VerifiedPose* rival : rivals)
+            link.rivals.push_back(rival->icp.target_from_source);
     }
     return link;
 }
@@ -117,7 +120,9 @@ RegistrationLink register_pair_from(const PreparedScan& source, const PreparedSc
     const RegistrationScale scale = joint_scale(source, target);
     const VerifiedPose pose =
         verify_pose(source, target, target_from_source_guess, scale, settings, context);
-    return link_of(pose, source, target, scale, settings, context);
+    // The guess stands for the search.
+    const double evidence = pose.support.evidence();
+    return link_of(pose, {evidence, evidence, true}, source, target, scale, settings, context);
 }
 
 }  // namespace roomscribe

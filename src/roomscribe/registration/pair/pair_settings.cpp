@@ -65,19 +65,12 @@ void PairRegistrationSettings::visit(SettingVisitor& visitor) {
              .min = 0.0,
              .max = 1.0,
              .doc = "The same where it is not known what the scanners' rays passed through."});
-    visitor(min_evidence,
-            {.name = "min_evidence",
+    visitor(min_probability,
+            {.name = "min_probability",
              .unit = "",
              .min = 0.0,
-             .max = 1e6,
-             .doc = "A link is ambiguous if fewer pieces of detail speak for it, net of those that "
-                    "speak against it, and rejected if more speak against it."});
-    visitor(min_lead,
-            {.name = "min_lead",
-             .unit = "",
-             .min = 0.0,
-             .max = 1e6,
-             .doc = "A link is ambiguous if a different pose has as many pieces but for this."});
+             .max = 1.0,
+             .doc = "A link is ambiguous, or rejected, if its pose is less likely to be right."});
 }
 
 }  // namespace roomscribe

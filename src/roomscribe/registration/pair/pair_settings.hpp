@@ -41,8 +41,7 @@ struct PairRegistrationSettings {
     double min_overlap = 0.1;
     double min_agreement = 0.5;
     double min_agreement_alone = 0.65;
-    double min_evidence = 15.0;
-    double min_lead = 10.0;
+    double min_probability = 0.95;
 
     void visit(SettingVisitor& visitor);
 };

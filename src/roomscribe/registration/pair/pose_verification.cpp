@@ -22,8 +22,9 @@ namespace {
 /// ICP of the chosen method between points with such a spacing.
 IcpSettings settings_for(double spacing, double reach, const PairRegistrationSettings& settings) {
     IcpSettings icp{.method = settings.icp_method, .max_correspondence_distance = reach};
-    // Along the surface the nearest sample is no farther than the spacing.
-    if (icp.method != IcpMethod::point_to_point) icp.max_offset_along_surface = spacing;
+    // Along the surface the nearest sample is no farther than the spacing; between the lines of a
+    // spinning scanner, which are farther apart than its points on average, twice that.
+    if (icp.method != IcpMethod::point_to_point) icp.max_offset_along_surface = 2.0 * spacing;
     return icp;
 }
 
