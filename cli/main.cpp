@@ -20,6 +20,7 @@
 #include "cli/interpret_command.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/register_command.hpp"
+#include "cli/reproduce_command.hpp"
 #include "cli/run_command.hpp"
 #include "cli/settings_command.hpp"
 #include "cli/simulate_command.hpp"
@@ -58,6 +59,7 @@ void declare_verbs(CLI::App& program, Action& action) {
     add_evaluate_command(program, action);
     add_simulate_command(program, action);
     add_suite_command(program, action);
+    add_reproduce_command(program, action);
     add_demo_command(program, action);
     add_settings_command(program, action);
     add_version_command(program, action);

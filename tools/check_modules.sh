@@ -13,7 +13,7 @@ floors=(
     "io preprocessing"
     "registration structure"
     "interpretation evaluation simulation export"
-    "pipeline"
+    "pipeline reproduction"
     "report"
 )
 declare -A floor_of depends_of

@@ -156,7 +156,7 @@ Json link_of(const RegistrationLink& link) {
         unobservable.push_back(numbers(twist, direction_digits));
     }
     json["unobservable"] = std::move(unobservable);
-    if (link.rival) json["rival"] = matrix_of(*link.rival);
+    if (!link.rivals.empty()) json["rival"] = matrix_of(link.rivals.front());
     json["stop_reason"] = link.stop_reason;
     return json;
 }

@@ -245,7 +245,8 @@ void read(const Node& node, RegistrationLink& link) {
     read_if_present(node, "inliers", link.inliers);
     read_if_present(node, "covariance", link.covariance);
     read_if_present(node, "unobservable", link.unobservable);
-    if (const std::optional<Node> rival = node.find("rival")) read(*rival, link.rival.emplace());
+    if (const std::optional<Node> rival = node.find("rival"))
+        read(*rival, link.rivals.emplace_back());
 }
 
 Json parse(std::string_view text, const DocumentName& name) {

@@ -15,7 +15,7 @@ namespace roomscribe {
 
 enum class LinkVerdict : std::uint8_t {
     accepted,
-    ambiguous,  ///< a rival pose explains the scans about as well
+    ambiguous,  ///< too little speaks for the pose, or as much for a rival
     rejected    ///< no pose that the scans support
 };
 std::string_view link_verdict_name(LinkVerdict verdict);
@@ -48,8 +48,9 @@ struct RegistrationLink {
     Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
     /// Unit twists (rotation vector, translation) along which the scans slide freely.
     std::vector<Eigen::Matrix<double, 6, 1>> unobservable;
-    std::optional<Transform> rival;  ///< the other pose, when ambiguous
-    std::string_view stop_reason;    ///< of the last refinement
+    /// The other poses that the scans bear out, the likeliest first, when ambiguous.
+    std::vector<Transform> rivals;
+    std::string_view stop_reason;  ///< of the last refinement
 };
 
 /// Scans in one frame: that of the first scan of the largest connected set, or that of known poses

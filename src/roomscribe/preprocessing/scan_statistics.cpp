@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <span>
 #include <vector>
 
 #include "roomscribe/core/parallel.hpp"
@@ -69,10 +70,11 @@ class CellLists {
 
     std::size_t size() const { return grid_.num_points.size(); }
 
-    /// The nearest points to the first point of a cell, that point among them; the farthest is
-    /// last. Fewer than num_neighbors where there are fewer in the cells around; in a cloud so thin
-    /// that this is no exception, the search goes on until it has them all.
-    void neighbors_of(std::size_t cell, std::vector<Neighbor>& neighbors) const {
+    /// The points around the first point of a cell, that point among them: the nearest of them come
+    /// first, the farthest of these last, and their number is returned. It is less than
+    /// num_neighbors where there are fewer in the cells around; in a cloud so thin that this is no
+    /// exception, the search goes on until it has them all.
+    std::size_t neighbors_of(std::size_t cell, std::vector<Neighbor>& neighbors) const {
         const bool is_thin = members_.size() < num_neighbors * size();
         const std::size_t num_wanted = is_thin ? std::min(num_neighbors, members_.size()) : 1;
         for (double reach = reach_;; reach *= 2.0) {
@@ -85,7 +87,7 @@ class CellLists {
                          [](const Neighbor& a, const Neighbor& b) {
                              return a.squared_distance < b.squared_distance;
                          });
-        neighbors.resize(count);
+        return count;
     }
 
   private:
@@ -114,28 +116,44 @@ struct LocalMeasures {
     std::size_t num_neighbors = 0;
     double reach = 0.0;  ///< m, distance of the last neighbour
     double spacing = 0.0;
-    double residual = -1.0;  ///< negative where the neighbours lie on one line
+    double residual = -1.0;  ///< negative where the points lie on one line
 };
 
-/// `neighbors` ends with the farthest.
-LocalMeasures measure(const std::vector<Eigen::Vector3f>& points,
-                      const std::vector<Neighbor>& neighbors) {
-    const auto count = static_cast<double>(neighbors.size());
-    LocalMeasures measures;
-    measures.reach = std::sqrt(static_cast<double>(neighbors.back().squared_distance));
-    measures.num_neighbors = neighbors.size();
-    // On a surface a disc of the k-th neighbour's radius holds k points: pi r^2 / k area for each.
-    measures.spacing = measures.reach * std::sqrt(std::numbers::pi / std::max(count - 1.0, 1.0));
+/// Standard deviation of points about their plane; negative where they lie on one line.
+double plane_residual(const std::vector<Eigen::Vector3f>& points,
+                      std::span<const Neighbor> neighbors) {
+    // More points tell no more.
+    constexpr std::size_t max_points = 100;
+    const std::size_t stride = 1 + neighbors.size() / max_points;
     PlaneMoments moments;
-    for (const Neighbor& neighbor : neighbors) {
-        moments.add(points[neighbor.index].cast<double>());
+    double count = 0.0;
+    for (std::size_t i = 0; i < neighbors.size(); i += stride) {
+        moments.add(points[neighbors[i].index].cast<double>());
+        count += 1.0;
     }
     const auto fit = moments.fit();
     constexpr double min_flatness = 0.02;  // variance ratio: below, this is one scan line
-    if (fit && fit->variances[1] > min_flatness * fit->variances[2]) {
-        // The plane took three degrees of freedom.
-        measures.residual = fit->rms * std::sqrt(count / std::max(count - 3.0, 1.0));
-    }
+    if (!fit || fit->variances[1] <= min_flatness * fit->variances[2]) return -1.0;
+    // The plane took three degrees of freedom.
+    return fit->rms * std::sqrt(count / std::max(count - 3.0, 1.0));
+}
+
+/// The first `num_nearest` neighbours are the nearest, the farthest of them last. Noise shows
+/// within `radius`: a depth camera's nearest points can all lie on one step of its depth.
+LocalMeasures measure(const std::vector<Eigen::Vector3f>& points, std::vector<Neighbor>& neighbors,
+                      std::size_t num_nearest, double radius) {
+    const auto count = static_cast<double>(num_nearest);
+    LocalMeasures measures;
+    const float squared_reach = neighbors[num_nearest - 1].squared_distance;
+    measures.reach = std::sqrt(static_cast<double>(squared_reach));
+    measures.num_neighbors = num_nearest;
+    // On a surface a disc of the k-th neighbour's radius holds k points: pi r^2 / k area for each.
+    measures.spacing = measures.reach * std::sqrt(std::numbers::pi / std::max(count - 1.0, 1.0));
+    const float squared_radius = std::max(squared_reach, static_cast<float>(radius * radius));
+    std::erase_if(neighbors, [squared_radius](const Neighbor& neighbor) {
+        return neighbor.squared_distance > squared_radius;
+    });
+    measures.residual = plane_residual(points, neighbors);
     return measures;
 }
 
@@ -158,8 +176,8 @@ ScanStatistics estimate_scan_statistics(const PointCloud& cloud, const Context& 
     parallel_for(context, measures.size(), 16, [&](std::size_t begin, std::size_t end) {
         std::vector<Neighbor> neighbors;
         for (std::size_t i = begin; i < end; ++i) {
-            cells.neighbors_of(i * stride, neighbors);
-            measures[i] = measure(cloud.positions, neighbors);
+            const std::size_t num_nearest = cells.neighbors_of(i * stride, neighbors);
+            measures[i] = measure(cloud.positions, neighbors, num_nearest, cell_size);
         }
     });
 

@@ -22,15 +22,38 @@ double median_of(std::vector<double> values) {
     return *middle;
 }
 
+std::vector<ScanStatistics> measure_scans(std::span<const Scan> scans, const Context& context) {
+    std::vector<ScanStatistics> statistics;
+    statistics.reserve(scans.size());
+    for (const Scan& scan : scans)
+        statistics.push_back(estimate_scan_statistics(scan.cloud, context));
+    return statistics;
+}
+
+double derive_fine_voxel(double coarse_voxel, double spacing, double noise) {
+    return std::min(coarse_voxel, std::max({spacing, 2.0 * noise, coarse_voxel / 4.0}));
+}
+
+/// The sizes of a scan: what all share, and its own noise and spacing. A depth camera sees what is
+/// far with ten times the noise of what is near.
+RegistrationScale scale_of_scan(const RegistrationScale& typical, const ScanStatistics& statistics,
+                                const ScanRegistrationSettings& settings) {
+    if (!(statistics.extent > 0.0)) return typical;
+    RegistrationScale scale = typical;
+    scale.noise = statistics.noise;
+    scale.fine_voxel = settings.fine_voxel.value_or(
+        derive_fine_voxel(typical.coarse_voxel, statistics.point_spacing, statistics.noise));
+    return scale;
+}
+
 /// The sizes that follow from the scans: each with its reason.
-RegistrationScale derive_scale(std::span<const Scan> scans,
+RegistrationScale derive_scale(std::span<const ScanStatistics> scans,
                                const ScanRegistrationSettings& settings,
-                               std::vector<DerivedValue>& derived, const Context& context) {
+                               std::vector<DerivedValue>& derived) {
     std::vector<double> spacings;
     std::vector<double> noises;
     std::vector<double> extents;
-    for (const Scan& scan : scans) {
-        const ScanStatistics statistics = estimate_scan_statistics(scan.cloud, context);
+    for (const ScanStatistics& statistics : scans) {
         if (!(statistics.extent > 0.0)) continue;  // no returns, no sizes
         spacings.push_back(statistics.point_spacing);
         noises.push_back(statistics.noise);
@@ -65,23 +88,27 @@ RegistrationScale derive_scale(std::span<const Scan> scans,
                            extent, max_structure));
     scale.fine_voxel = derive(
         "registration.fine_voxel", settings.fine_voxel,
-        std::min(scale.coarse_voxel, std::max({spacing, 2.0 * noise, scale.coarse_voxel / 4.0})),
-        "largest of the spacing, twice the noise, a quarter of the coarse voxel");
+        derive_fine_voxel(scale.coarse_voxel, spacing, noise),
+        "largest of the spacing, twice the noise, a quarter of the coarse voxel; each scan's own");
     scale.fpfh_radius = derive("registration.fpfh_radius", settings.fpfh_radius,
                                5.0 * scale.coarse_voxel, "five coarse voxels");
+    if (uses_narf_keypoints(settings.pair.features)) {
+        scale.narf_support = derive("registration.narf_support", settings.narf_support,
+                                    5.0 * scale.coarse_voxel, "five coarse voxels");
+    }
     return scale;
 }
 
 /// Every scan to the one before (the paper's iterative registration).
 std::vector<RegistrationLink> link_in_sequence(std::span<const PreparedScan> prepared,
-                                               const RegistrationScale& scale, std::uint64_t seed,
+                                               std::uint64_t seed,
                                                const ScanRegistrationSettings& settings,
                                                const Context& context) {
     std::vector<RegistrationLink> links;
     for (std::size_t scan = 1; scan < prepared.size(); ++scan) {
         context.throw_if_cancelled();
         RegistrationLink& link = links.emplace_back(
-            register_pair(prepared[scan], prepared[scan - 1], scale, seed, settings.pair, context));
+            register_pair(prepared[scan], prepared[scan - 1], seed, settings.pair, context));
         link.source = scan;
         link.target = scan - 1;
         context.report_progress(
@@ -178,6 +205,11 @@ void ScanRegistrationSettings::visit(SettingVisitor& visitor) {
                           .min = 1e-6,
                           .max = 1e6,
                           .doc = "Radius of the FPFH descriptors."});
+    visitor(narf_support, {.name = "narf_support",
+                           .unit = "m",
+                           .min = 1e-3,
+                           .max = 1e3,
+                           .doc = "Support size of NARF keypoints and descriptors."});
     visitor.group("pair", pair);
     visitor.group("graph", graph);
     visitor.group("optimization", optimization);
@@ -195,7 +227,8 @@ ScanRegistration register_scans(std::span<const Scan> scans,
                               fmt::format("one per scan, {}, or none", scans.size()));
     }
     ScanRegistration result;
-    const RegistrationScale scale = derive_scale(scans, settings, result.derived_values, context);
+    const std::vector<ScanStatistics> statistics = measure_scans(scans, context);
+    const RegistrationScale scale = derive_scale(statistics, settings, result.derived_values);
     const bool is_graph = settings.sequence == ScanSequence::graph;
     std::vector<std::size_t> as_given(scans.size());
     std::iota(as_given.begin(), as_given.end(), std::size_t{0});
@@ -203,7 +236,9 @@ ScanRegistration register_scans(std::span<const Scan> scans,
     std::vector<PreparedScan> prepared;
     prepared.reserve(scans.size());
     for (const std::size_t scan : order) {
-        prepared.push_back(prepare_scan(scans[scan], scale, context));
+        prepared.push_back(prepare_scan(scans[scan],
+                                        scale_of_scan(scale, statistics[scan], settings),
+                                        settings.pair.features, context));
         context.report_progress(
             "prepare", static_cast<double>(prepared.size()) / static_cast<double>(scans.size()));
     }
@@ -213,7 +248,7 @@ ScanRegistration register_scans(std::span<const Scan> scans,
                            seed, settings.pair, settings.graph, context);
         renumber(links, order);
     } else {
-        links = link_in_sequence(prepared, scale, seed, settings, context);
+        links = link_in_sequence(prepared, seed, settings, context);
     }
     result.registration = place_scans(
         std::move(links), scans.size(), describe_known(known_world_from_scan, as_given, settings),

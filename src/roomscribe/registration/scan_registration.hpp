@@ -44,6 +44,7 @@ struct ScanRegistrationSettings {
     std::optional<double> coarse_voxel;
     std::optional<double> fine_voxel;
     std::optional<double> fpfh_radius;
+    std::optional<double> narf_support;
     PairRegistrationSettings pair;
     ScanGraphSettings graph;
     PoseGraphSettings optimization;

@@ -311,7 +311,7 @@ TEST(LinksFromJson, GivesBackWhatWasWritten) {
     link.inliers = 42;
     link.covariance(2, 3) = 1.25e-7;
     link.unobservable.emplace_back(Eigen::Matrix<double, 6, 1>::Unit(4));
-    link.rival = Transform::Identity();
+    link.rivals = {Transform::Identity()};
     registration.links = {link, RegistrationLink{}};
     const std::vector<std::string> names{"a.pcd", "b.pcd"};
     const auto links = links_from_json(registration_to_json(registration, names));
@@ -327,8 +327,8 @@ TEST(LinksFromJson, GivesBackWhatWasWritten) {
     EXPECT_EQ(links[0].inliers, 42U);
     EXPECT_EQ(links[0].covariance, link.covariance);
     EXPECT_EQ(links[0].unobservable, link.unobservable);
-    EXPECT_TRUE(links[0].rival);
-    EXPECT_FALSE(links[1].rival);
+    EXPECT_EQ(links[0].rivals.size(), 1U);
+    EXPECT_TRUE(links[1].rivals.empty());
     EXPECT_EQ(links[1].verdict, LinkVerdict::rejected);
 }
 

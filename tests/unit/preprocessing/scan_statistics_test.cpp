@@ -41,6 +41,16 @@ TEST(ScanStatistics, MeasuresSpacingAndNoise) {
     }
 }
 
+TEST(ScanStatistics, StepsOfDepthAreNoiseToo) {
+    // Slanted ground as a camera sees it that knows depth in steps of 2 cm: on one step the nearest
+    // points lie in one plane exactly.
+    constexpr float step = 0.02F;
+    std::vector<Eigen::Vector3f> points = test::grid_points(400, 400, 0.01);
+    for (Eigen::Vector3f& point : points)
+        point.z() = step * std::round(0.3F * point.x() / step);
+    EXPECT_NEAR(statistics_of(points).noise, static_cast<double>(step) / std::sqrt(12.0), 0.003);
+}
+
 TEST(ScanStatistics, FindsNoNoiseWhereThereIsNone) {
     Random random(2);
     const ScanStatistics statistics = statistics_of(corner(random, 0.05, 0.0));

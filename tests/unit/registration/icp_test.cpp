@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "roomscribe/registration/alignment/icp.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -168,6 +169,28 @@ TEST(AlignIcp, PointsThatFaceAnotherWayTakeNoPart) {
         normal.setConstant(NAN);
     EXPECT_EQ(align_icp(turned.as_source(), target.as_target(), Transform::Identity()).num_pairs,
               0U);
+}
+
+TEST(AlignIcp, PointsBeyondTheEdgeOfTheTargetTakeNoPart) {
+    Random random(13);
+    Surface target;
+    target.add_rectangle(random, 10'000, {0, 0, 0}, {1, 0, 0}, {0, 1, 0});
+    Surface source;  // half of it over the target, the other half beyond
+    source.add_rectangle(random, 2000, {0.5, 0, 0.02}, {1, 0, 0}, {0, 1, 0});
+    const auto inside =
+        static_cast<double>(std::count_if(source.positions.begin(), source.positions.end(),
+                                          [](const auto& point) { return point.x() <= 1.0F; }));
+    for (const IcpMethod method : {IcpMethod::point_to_plane, IcpMethod::generalized}) {
+        IcpSettings settings{.method = method, .max_iterations = 1};
+        EXPECT_EQ(align_icp(source.as_source(), target.as_target(), Transform::Identity(), settings)
+                      .num_pairs,
+                  source.positions.size());
+        settings.max_offset_along_surface = 0.03;
+        EXPECT_NEAR(static_cast<double>(align_icp(source.as_source(), target.as_target(),
+                                                  Transform::Identity(), settings)
+                                            .num_pairs),
+                    inside, 0.08 * inside);
+    }
 }
 
 TEST(AlignIcp, DoesNotRunAwayAlongACorridor) {

@@ -77,7 +77,7 @@ TEST(CheckLoops, AnAmbiguousLinkTakesThePoseThatALoopLeadsTo) {
                                            true_link(poses, 2, 0)};
     const Transform truth = links[2].target_from_source;
     links[2].verdict = LinkVerdict::ambiguous;
-    links[2].rival = truth;
+    links[2].rivals = {truth};
     links[2].target_from_source = half_turn_and_shift() * truth;
     check_loops(links, {});
     EXPECT_EQ(links[2].verdict, LinkVerdict::accepted);
@@ -89,7 +89,7 @@ TEST(CheckLoops, AnAmbiguousLinkThatNoLoopClosesStaysSo) {
     const std::vector<Transform> poses = some_poses(3);
     std::vector<RegistrationLink> links = {true_link(poses, 1, 0), true_link(poses, 2, 0)};
     links[1].verdict = LinkVerdict::ambiguous;
-    links[1].rival = half_turn_and_shift() * links[1].target_from_source;
+    links[1].rivals = {half_turn_and_shift() * links[1].target_from_source};
     check_loops(links, {});
     EXPECT_EQ(links[1].verdict, LinkVerdict::ambiguous);
     EXPECT_EQ(links[1].loops, LoopCheck::none);

@@ -37,6 +37,7 @@ struct IcpSettings {
     int max_iterations = 100;
     double min_error_change = 1e-6;
     double max_normal_angle = 0.7;
+    std::optional<double> max_offset_along_surface = {};
     RobustKernel kernel = RobustKernel::none;
     std::optional<double> kernel_scale = {};
     double trimmed_share = 0.0;
@@ -71,6 +72,14 @@ struct IcpSettings {
                  .max = 3.15,
                  .doc = "Points whose normals differ by more take no part, where both sides have "
                         "normals."});
+        visitor(max_offset_along_surface,
+                {.name = "max_offset_along_surface",
+                 .unit = "m",
+                 .min = 1e-9,
+                 .max = 1e6,
+                 .doc = "A point whose nearest target point lies farther off along the target's "
+                        "surface takes no part: it lies beyond the edge of what the target saw, "
+                        "and would pull the surfaces over each other. auto: no limit."});
         visitor(kernel,
                 {.name = "kernel",
                  .unit = "",

@@ -60,6 +60,10 @@ double IcpPair::residual(IcpMethod method) const {
     return 0.0;
 }
 
+double IcpPair::offset_along_surface() const {
+    return (offset - target_normal.dot(offset) * target_normal).norm();
+}
+
 IcpPairing::IcpPairing(const IcpSource& source, const IcpTarget& target,
                        const IcpSettings& settings)
     : source_(source),
@@ -112,8 +116,13 @@ void IcpPairing::pair_range(std::size_t begin, std::size_t end, float reach) {
             // Negated so that a NaN normal takes no part.
             if (!(turned.dot(target_.normals[target].cast<double>()) >= min_cosine)) continue;
         }
-        const auto residual = static_cast<float>(pair_with(i, target).residual(settings_.method));
+        const IcpPair pair = pair_with(i, target);
+        const auto residual = static_cast<float>(pair.residual(settings_.method));
         if (!std::isfinite(residual)) continue;
+        if (settings_.max_offset_along_surface &&
+            pair.offset_along_surface() > *settings_.max_offset_along_surface) {
+            continue;
+        }
         if (!precisions_.empty()) {
             const double variance =
                 variance_of(source_.deviations, i) + variance_of(target_.deviations, target);

@@ -27,6 +27,7 @@ struct IcpPair {
     Eigen::Matrix3d generalized_metric() const;
     /// m, what the method minimises: signed for point_to_plane.
     double residual(IcpMethod method) const;
+    double offset_along_surface() const;  ///< m, across the target's normal
 };
 
 /// The pairs of all source points under a motion, and how much each counts.

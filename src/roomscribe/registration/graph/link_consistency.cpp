@@ -77,18 +77,12 @@ void reject_contradicted(std::vector<RegistrationLink>& links, const LinkToleran
 /// Gives an ambiguous link the one of its poses that accepted links lead to.
 void resolve_ambiguous(std::vector<RegistrationLink>& links, const LinkTolerance& tolerance) {
     for (RegistrationLink& link : links) {
-        if (link.verdict != LinkVerdict::ambiguous || !link.rival) continue;
+        if (link.verdict != LinkVerdict::ambiguous) continue;
         std::vector<bool> left_out(links.size(), false);
         const auto chain = take_chain(links, link.source, link.target, left_out, tolerance);
         if (!chain) continue;
-        RegistrationLink other = link;
-        std::swap(other.target_from_source, *other.rival);
-        const bool first = are_consistent(chain_of(link, tolerance), *chain);
-        const bool second = are_consistent(chain_of(other, tolerance), *chain);
-        if (first == second) continue;
-        if (second) link = other;
-        link.verdict = LinkVerdict::accepted;
-        link.loops = LoopCheck::resolved;
+        if (const auto pose = only_consistent_pose(link, *chain, tolerance))
+            settle_link(link, *pose);
     }
 }
 
@@ -130,8 +124,30 @@ RegistrationLink reversed(const RegistrationLink& link) {
     const Matrix6d carry = adjoint(back.target_from_source);
     back.covariance = carry * link.covariance * carry.transpose();
     back.unobservable = carried(link.unobservable, carry);
-    if (link.rival) back.rival = link.rival->inverse();
+    for (Transform& rival : back.rivals)
+        rival = rival.inverse();
     return back;
+}
+
+void settle_link(RegistrationLink& link, const Transform& pose) {
+    link.target_from_source = pose;
+    link.rivals.clear();
+    link.verdict = LinkVerdict::accepted;
+    link.loops = LoopCheck::resolved;
+}
+
+std::optional<Transform> only_consistent_pose(const RegistrationLink& link,
+                                              const ChainedPose& expected,
+                                              const LinkTolerance& tolerance) {
+    std::optional<Transform> found;
+    RegistrationLink reading = link;
+    for (std::size_t i = 0; i <= link.rivals.size(); ++i) {
+        if (i > 0) reading.target_from_source = link.rivals[i - 1];
+        if (!are_consistent(chain_of(reading, tolerance), expected)) continue;
+        if (found) return std::nullopt;
+        found = reading.target_from_source;
+    }
+    return found;
 }
 
 bool are_consistent(const ChainedPose& a, const ChainedPose& b) {

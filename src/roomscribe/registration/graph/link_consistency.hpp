@@ -40,6 +40,14 @@ RegistrationLink reversed(const RegistrationLink& link);
 /// stays below the 0.999 quantile, free directions left out.
 bool are_consistent(const ChainedPose& a, const ChainedPose& b);
 
+/// The pose of an ambiguous link that can be true if the other statement is; empty if none of them
+/// can, or several.
+std::optional<Transform> only_consistent_pose(const RegistrationLink& link,
+                                              const ChainedPose& expected,
+                                              const LinkTolerance& tolerance);
+/// Accepts an ambiguous link with one of its poses, as other links decided.
+void settle_link(RegistrationLink& link, const Transform& pose);
+
 /// The shortest chain of accepted links from one scan to another, without those in `left_out` (one
 /// entry per link); empty if there is none. Adds the links on it to `left_out`.
 std::optional<ChainedPose> take_chain(std::span<const RegistrationLink> links, std::size_t source,

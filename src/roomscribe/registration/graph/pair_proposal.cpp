@@ -84,31 +84,29 @@ ScanSignature make_signature(const PreparedScan& scan) {
     constexpr std::size_t max_places = 600;
     ScanSignature signature;
     signature.summary = Eigen::VectorXf::Zero(2 * fpfh_size);
-    if (scan.keypoints.empty()) {
+    if (scan.fpfh.positions.empty()) {
         signature.descriptors.resize(fpfh_size, 0);
         return signature;
     }
-    const Eigen::Matrix<float, fpfh_size, 1> mean = scan.descriptors.rowwise().mean();
-    const FpfhDescriptors offsets = scan.descriptors.colwise() - mean;
+    const Eigen::Matrix<float, fpfh_size, 1> mean = scan.fpfh.descriptors.rowwise().mean();
+    const FpfhDescriptors offsets = scan.fpfh.descriptors.colwise() - mean;
     signature.summary << mean,
         offsets.rowwise().squaredNorm().cwiseSqrt() / std::sqrt(static_cast<float>(offsets.cols()));
     const Eigen::VectorXf distinctness = offsets.colwise().squaredNorm();
-    std::vector<std::size_t> order(scan.keypoints.size());
+    std::vector<std::size_t> order(scan.fpfh.positions.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
         return distinctness[static_cast<Eigen::Index>(a)] >
                distinctness[static_cast<Eigen::Index>(b)];
     });
-    std::erase_if(order, [&scan](std::size_t i) {
-        return !scan.coarse.normals[scan.keypoints[i]].allFinite();
-    });
+    std::erase_if(order, [&scan](std::size_t i) { return !scan.fpfh.normals[i].allFinite(); });
     order.resize(std::min(order.size(), max_places));
     signature.descriptors.resize(fpfh_size, static_cast<Eigen::Index>(order.size()));
     for (std::size_t i = 0; i < order.size(); ++i) {
-        signature.positions.push_back(scan.coarse.positions[scan.keypoints[order[i]]]);
-        signature.normals.push_back(scan.coarse.normals[scan.keypoints[order[i]]]);
+        signature.positions.push_back(scan.fpfh.positions[order[i]]);
+        signature.normals.push_back(scan.fpfh.normals[order[i]]);
         signature.descriptors.col(static_cast<Eigen::Index>(i)) =
-            scan.descriptors.col(static_cast<Eigen::Index>(order[i]));
+            scan.fpfh.descriptors.col(static_cast<Eigen::Index>(order[i]));
     }
     signature.squared_norms = signature.descriptors.colwise().squaredNorm();
     return signature;

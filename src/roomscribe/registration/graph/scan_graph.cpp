@@ -2,13 +2,13 @@
 #include "roomscribe/registration/graph/scan_graph.hpp"
 
 #include <algorithm>
-#include <map>
 #include <utility>
 
 #include "roomscribe/registration/graph/link_consistency.hpp"
 #include "roomscribe/registration/graph/link_forest.hpp"
 #include "roomscribe/registration/graph/pair_proposal.hpp"
 #include "roomscribe/registration/graph/pose_graph.hpp"
+#include "roomscribe/registration/graph/set_joining.hpp"
 #include "roomscribe/registration/pair/pair_registration.hpp"
 #include "roomscribe/registration/pair/pose_support.hpp"
 
@@ -54,9 +54,8 @@ class LinkFinder {
         link_known_neighbors();
         link_promising_pairs();
         settle_by_known_poses();
+        join_sets(links_, scans_, pair_, context_);
         close_loops();
-        check_loops(links_, tolerance_);
-        settle_by_surroundings();
         check_loops(links_, tolerance_);
         std::sort(links_.begin(), links_.end(), [](const auto& a, const auto& b) {
             return std::pair(a.source, a.target) < std::pair(b.source, b.target);
@@ -77,7 +76,7 @@ class LinkFinder {
     void register_without_guess(std::size_t source, std::size_t target) {
         context_.throw_if_cancelled();
         RegistrationLink link =
-            register_pair(scans_[source], scans_[target], scale_, seed_, pair_, context_);
+            register_pair(scans_[source], scans_[target], seed_, pair_, context_);
         link.source = source;
         link.target = target;
         links_.push_back(std::move(link));
@@ -86,9 +85,8 @@ class LinkFinder {
     /// Empty if the scans do not bear the guess out.
     std::optional<RegistrationLink> register_with_guess(const NearbyPair& pair) const {
         context_.throw_if_cancelled();
-        RegistrationLink link =
-            register_pair_from(scans_[pair.source], scans_[pair.target], pair.target_from_source,
-                               scale_, pair_, context_);
+        RegistrationLink link = register_pair_from(scans_[pair.source], scans_[pair.target],
+                                                   pair.target_from_source, pair_, context_);
         link.source = pair.source;
         link.target = pair.target;
         if (link.verdict != LinkVerdict::accepted) return std::nullopt;
@@ -199,73 +197,16 @@ class LinkFinder {
         }
     }
 
-    void accept(RegistrationLink& link, bool rival) {
-        if (rival) std::swap(link.target_from_source, *link.rival);
-        link.verdict = LinkVerdict::accepted;
-        link.loops = LoopCheck::resolved;
-    }
-
     /// Of the poses of an ambiguous link, known poses may allow one alone.
     void settle_by_known_poses() {
         if (known_.empty()) return;
         for (RegistrationLink& link : links_) {
-            if (link.verdict != LinkVerdict::ambiguous || !link.rival) continue;
+            if (link.verdict != LinkVerdict::ambiguous) continue;
             if (!known_[link.source] || !known_[link.target]) continue;
             const ChainedPose expected =
                 reversed(known_chain(*known_[link.target])) * known_chain(*known_[link.source]);
-            RegistrationLink other = link;
-            std::swap(other.target_from_source, *other.rival);
-            const bool first = are_consistent(chain_of(link, tolerance_), expected);
-            const bool second = are_consistent(chain_of(other, tolerance_), expected);
-            if (first != second) accept(link, second);
-        }
-    }
-
-    /// The links that become possible between two sets of scans if a link between them has a pose.
-    std::vector<RegistrationLink> link_sets(const LinkForest& forest, const RegistrationLink& link,
-                                            const Transform& target_from_source) const {
-        constexpr int max_links = 3;
-        const Transform to_target_set = forest.set_from_scan[link.target] * target_from_source *
-                                        forest.set_from_scan[link.source].inverse();
-        std::vector<NearbyPair> pairs;
-        for (std::size_t a = 0; a < scans_.size(); ++a) {
-            if (forest.set_of[a] != forest.set_of[link.source]) continue;
-            for (std::size_t b = 0; b < scans_.size(); ++b) {
-                if (forest.set_of[b] != forest.set_of[link.target]) continue;
-                if (a == link.source && b == link.target) continue;
-                pairs.push_back(nearby_pair(a, b, to_target_set * forest.set_from_scan[a],
-                                            forest.set_from_scan[b]));
-            }
-        }
-        keep_nearest(pairs, max_links);
-        std::vector<RegistrationLink> found;
-        for (const NearbyPair& pair : pairs) {
-            if (found.size() == max_links) break;
-            if (!should_overlap(pair)) continue;
-            if (auto closed = register_with_guess(pair)) found.push_back(std::move(*closed));
-        }
-        return found;
-    }
-
-    /// An ambiguous link between two sets: the scans around it can decide which pose is right.
-    void settle_by_surroundings() {
-        for (std::size_t i = 0; i < links_.size(); ++i) {
-            const RegistrationLink link = links_[i];
-            if (link.verdict != LinkVerdict::ambiguous || !link.rival) continue;
-            const LinkForest forest = grow_forest(links_, scans_.size(), false);
-            if (forest.set_of[link.source] == forest.set_of[link.target]) continue;
-            const auto first = link_sets(forest, link, link.target_from_source);
-            const auto second = link_sets(forest, link, *link.rival);
-            if (first.empty() == second.empty()) continue;
-            accept(links_[i], first.empty());
-            for (const RegistrationLink& closed : first.empty() ? second : first) {
-                RegistrationLink* const known = find_link(closed.source, closed.target);
-                if (known == nullptr) {
-                    links_.push_back(closed);
-                } else if (known->verdict != LinkVerdict::accepted) {
-                    *known = closed;
-                }
-            }
+            if (const auto pose = only_consistent_pose(link, expected, tolerance_))
+                settle_link(link, *pose);
         }
     }
 

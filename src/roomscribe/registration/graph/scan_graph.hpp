@@ -17,7 +17,7 @@
 namespace roomscribe {
 
 struct ScanGraphSettings {
-    int max_partners = 5;
+    int max_partners = 8;
     int max_closures = 4;
 
     void visit(SettingVisitor& visitor) {
@@ -49,11 +49,10 @@ LinkTolerance link_tolerance(const RegistrationScale& scale);
 
 /// Links between scans in any order: the most promising pairs first, until the scans hang together
 /// or every scan has tried its partners; then links between scans that lie near each other, which
-/// close loops; then all links are held against the loops (check_loops). An ambiguous link becomes
-/// accepted if scans around it can be linked under one of its poses and not under the other.
-/// `known` is empty or has one entry per scan: known poses are the first guesses. The number of
-/// links grows with the number of scans, not with that of their pairs. Their order is that of their
-/// scans, source > target.
+/// close loops; then all links are held against the loops (check_loops). Known poses, the scans
+/// around it (join_sets) and loops can make an ambiguous link accepted. `known` is empty or has one
+/// entry per scan: known poses are the first guesses. The number of links grows with the number of
+/// scans, not with that of their pairs. Their order is that of their scans, source > target.
 std::vector<RegistrationLink> link_scans(std::span<const PreparedScan> scans,
                                          std::span<const std::optional<KnownPose>> known,
                                          const RegistrationScale& scale, std::uint64_t seed,

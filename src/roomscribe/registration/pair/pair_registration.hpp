@@ -1,64 +1,27 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <array>
 #include <cstdint>
-#include <span>
-#include <string_view>
 
 #include "roomscribe/core/context.hpp"
-#include "roomscribe/core/settings.hpp"
 #include "roomscribe/model/registration_result.hpp"
-#include "roomscribe/registration/alignment/icp.hpp"
-#include "roomscribe/registration/alignment/pose_covariance.hpp"
+#include "roomscribe/registration/pair/pair_settings.hpp"
 #include "roomscribe/registration/pair/prepared_scan.hpp"
 
 namespace roomscribe {
 
-/// How poses are found that the scans then decide between.
-enum class InitialAlignment : std::uint8_t {
-    sample_consensus,     ///< the paper's: one pose, from matches by sample-consensus rejection
-    compatibility_graph,  ///< several poses from matches
-    surfaces,             ///< all poses that bring flat surfaces together; else from matches
-};
-
-inline std::span<const std::string_view> enumerator_names(InitialAlignment) {
-    static constexpr std::array<std::string_view, 3> names{"sample_consensus",
-                                                           "compatibility_graph", "surfaces"};
-    return names;
-}
-
-struct PairRegistrationSettings {
-    InitialAlignment initial_alignment = InitialAlignment::surfaces;
-    IcpMethod icp_method = IcpMethod::generalized;
-    RobustKernel icp_kernel = RobustKernel::tukey;
-    PoseCovarianceSettings covariance;
-    int icp_max_iterations = 100;
-    int max_candidates = 16;
-    double min_overlap = 0.1;
-    double min_agreement = 0.5;
-    double min_agreement_alone = 0.65;
-    double min_detail_agreement = 0.5;
-    double min_detail_share = 0.05;
-    double max_contradiction = 0.015;
-    double min_lead = 0.12;
-
-    void visit(SettingVisitor& visitor);
-};
-
 /// Two scans without any guess (the paper's Algorithm 1 and beyond): matches, candidate poses,
 /// verification of each against both scans, refinement by ICP, verdict. The link's scan numbers are
-/// left 0. A pair without overlap comes back rejected, with the best pose that was found.
+/// left 0. Precondition: both scans were prepared for settings.features. A pair without overlap
+/// comes back rejected, with the best pose that was found.
 RegistrationLink register_pair(const PreparedScan& source, const PreparedScan& target,
-                               const RegistrationScale& scale, std::uint64_t seed,
-                               const PairRegistrationSettings& settings = {},
+                               std::uint64_t seed, const PairRegistrationSettings& settings = {},
                                const Context& context = {});
 
 /// Two scans whose relative pose is known to the reach of ICP, three coarse voxels: refinement from
 /// there and the verdict of register_pair, but for the search for rivals.
 RegistrationLink register_pair_from(const PreparedScan& source, const PreparedScan& target,
                                     const Transform& target_from_source_guess,
-                                    const RegistrationScale& scale,
                                     const PairRegistrationSettings& settings = {},
                                     const Context& context = {});
 

@@ -195,6 +195,53 @@ std::vector<ShiftCandidate> list_shifts(const AxisHistogram& source, const AxisH
     return peaks;
 }
 
+/// Shifts along an axis from one end of the overlap to the other: where little surface faces that
+/// way, as along a corridor or from one wall, no histogram knows the right one.
+std::vector<double> list_slides(const PreparedScan& source, const PreparedScan& target,
+                                const Matrix3d& rotation, const Vector3d& axis, double step) {
+    constexpr int max_slides = 120;
+    const auto extent = [](std::span<const Eigen::Vector3f> positions, const Vector3d& along) {
+        std::pair<double, double> ends{std::numeric_limits<double>::max(),
+                                       std::numeric_limits<double>::lowest()};
+        for (const Eigen::Vector3f& position : positions) {
+            const auto place = static_cast<double>(position.dot(along.cast<float>()));
+            ends = {std::min(ends.first, place), std::max(ends.second, place)};
+        }
+        return ends;
+    };
+    const auto [source_low, source_high] =
+        extent(source.coarse_sample.positions, rotation.transpose() * axis);
+    const auto [target_low, target_high] = extent(target.coarse_sample.positions, axis);
+    const double first = target_low - source_high;
+    const double range = target_high - source_low - first;
+    if (!(range > 0.0)) return {};
+    step = std::max(step, range / max_slides);
+    std::vector<double> slides;
+    for (int i = 1; i * step < range; ++i)
+        slides.push_back(first + i * step);
+    return slides;
+}
+
+/// The pairs of shifts along two axes that bring most surface together.
+std::vector<std::pair<double, double>> best_pairs(std::span<const ShiftCandidate> first,
+                                                  std::span<const ShiftCandidate> second) {
+    constexpr std::size_t max_pairs = 6;
+    std::vector<std::pair<ShiftCandidate, ShiftCandidate>> all;
+    for (const ShiftCandidate& a : first) {
+        for (const ShiftCandidate& b : second)
+            all.emplace_back(a, b);
+    }
+    std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) {
+        return a.first.shared + a.second.shared > b.first.shared + b.second.shared;
+    });
+    all.resize(std::min(all.size(), max_pairs));
+    std::vector<std::pair<double, double>> pairs;
+    pairs.reserve(all.size());
+    for (const auto& [a, b] : all)
+        pairs.emplace_back(a.shift, b.shift);
+    return pairs;
+}
+
 /// Three directions of the target that span space, those with most shared surface first; what is
 /// missing is filled by their cross product.
 Matrix3d choose_axes(const RotationCandidate& candidate, std::span<const SurfaceDirection> source,
@@ -261,15 +308,22 @@ std::vector<Transform> search_poses(const PreparedScan& source, const PreparedSc
             shifts[static_cast<std::size_t>(i)] = list_shifts(moved, fixed, bin, shifts_per_axis);
         }
         const Matrix3d translation_from_shifts = axes.transpose().inverse();
+        const auto add = [&](double a, double b, double c) {
+            Transform pose = Transform::Identity();
+            pose.linear() = candidate.rotation;
+            pose.translation() = translation_from_shifts * Vector3d(a, b, c);
+            poses.push_back(pose);
+        };
+        const std::vector<double> slides =
+            list_slides(source, target, candidate.rotation, axes.col(2), 2.0 * scale.coarse_voxel);
+        for (const auto& [a, b] : best_pairs(shifts[0], shifts[1])) {
+            for (const double slide : slides)
+                add(a, b, slide);
+        }
         for (const ShiftCandidate& a : shifts[0]) {
             for (const ShiftCandidate& b : shifts[1]) {
-                for (const ShiftCandidate& c : shifts[2]) {
-                    Transform pose = Transform::Identity();
-                    pose.linear() = candidate.rotation;
-                    pose.translation() =
-                        translation_from_shifts * Vector3d(a.shift, b.shift, c.shift);
-                    poses.push_back(pose);
-                }
+                for (const ShiftCandidate& c : shifts[2])
+                    add(a.shift, b.shift, c.shift);
             }
         }
     }

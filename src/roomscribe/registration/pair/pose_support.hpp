@@ -25,12 +25,21 @@ struct WitnessTally {
     WitnessTally& operator+=(const WitnessTally& other);
 };
 
+/// Witnesses of one kind, counted one by one and by pieces. A piece is what most of its witnesses
+/// are that the other scan has a say on, if there are two at least.
+struct WitnessCount {
+    WitnessTally points;
+    WitnessTally pieces;
+
+    WitnessCount& operator+=(const WitnessCount& other);
+};
+
 /// How well a pose explains two scans, by the witnesses of both. Those on the shell, the large
 /// planes that all rooms have, say how far the scans overlap; the details, furniture and reveals
 /// and all that is small, tell a room from its mirror image and one office from the next.
 struct PoseSupport {
-    WitnessTally shell;
-    WitnessTally detail;
+    WitnessCount shell;
+    WitnessCount detail;
     /// Whether both scans' free space could be asked; without it nothing is ever contradicted.
     bool free_space_is_known = false;
 
@@ -39,14 +48,12 @@ struct PoseSupport {
     double overlap() const;
     /// Share that is confirmed of those on which the other scan has a say.
     double agreement() const;
-    /// The same of the details alone; empty with fewer than 30 of them, of which no share is known.
-    std::optional<double> detail_agreement() const;
-    /// Share of the details among the witnesses on which the other scan has a say.
-    double detail_share() const;
     /// Contradicted as a share of the confirmed ones.
     double contradiction() const;
-    /// What poses are ranked by: confirmed less contradicted and displaced, as a share of all.
-    double score() const;
+    /// What poses are ranked and judged by, in confirmed pieces of detail: these, less the
+    /// contradicted pieces by their weight, and a little for the shell's. Counts of
+    /// both scans' pieces are halved, because most of them see the same place.
+    double evidence() const;
 };
 
 /// How near a witness must come.
@@ -67,16 +74,5 @@ SupportTolerance fine_tolerance(const RegistrationScale& scale);
 PoseSupport measure_support(const PreparedScan& source, const PreparedScan& target,
                             const Transform& target_from_source, const SupportTolerance& tolerance,
                             const Context& context = {});
-
-enum class Screening : std::uint8_t {
-    glance,  ///< 40 witnesses of the source: what brings no surfaces together falls out
-    look     ///< 300 witnesses of either scan, free space asked
-};
-
-/// Confirmed less contradicted as a share of some witnesses, by nearby points instead of nearest
-/// ones: a quick score for each of many poses.
-std::vector<double> screen_poses(const PreparedScan& source, const PreparedScan& target,
-                                 std::span<const Transform> poses, const RegistrationScale& scale,
-                                 Screening screening, const Context& context = {});
 
 }  // namespace roomscribe

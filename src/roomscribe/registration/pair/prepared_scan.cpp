@@ -2,6 +2,8 @@
 #include "roomscribe/registration/pair/prepared_scan.hpp"
 
 #include <algorithm>
+#include <array>
+#include <map>
 #include <numeric>
 
 #include "roomscribe/preprocessing/normal_estimation.hpp"
@@ -22,17 +24,32 @@ SurfacePoints clean_surface(const PointCloud& thinned, const Eigen::Vector3d& se
             std::move(tree)};
 }
 
+void append_point(const SurfacePoints& points, std::size_t index, OrientedPoints& sample) {
+    sample.positions.push_back(points.positions[index]);
+    sample.normals.push_back(points.normals[index]);
+    sample.deviations.push_back(points.deviations[index]);
+}
+
 /// Every n-th point with a normal, about so many.
 OrientedPoints sample_surface(const SurfacePoints& points, std::size_t sample_size) {
     const std::size_t stride = std::max<std::size_t>(1, points.positions.size() / sample_size);
     OrientedPoints sample;
     for (std::size_t i = 0; i < points.positions.size(); i += stride) {
-        if (!points.normals[i].allFinite()) continue;
-        sample.positions.push_back(points.positions[i]);
-        sample.normals.push_back(points.normals[i]);
-        sample.deviations.push_back(points.deviations[i]);
+        if (points.normals[i].allFinite()) append_point(points, i, sample);
     }
     return sample;
+}
+
+void number_pieces(WitnessSet& witnesses, double piece_size) {
+    std::map<std::array<int, 3>, std::uint32_t> numbers;
+    for (const Eigen::Vector3f& position : witnesses.points.positions) {
+        const Eigen::Vector3i cube =
+            (position.cast<double>() / piece_size).array().floor().cast<int>();
+        const auto next = static_cast<std::uint32_t>(numbers.size());
+        witnesses.pieces.push_back(
+            numbers.try_emplace({cube.x(), cube.y(), cube.z()}, next).first->second);
+    }
+    witnesses.num_pieces = numbers.size();
 }
 
 Witnesses choose_witnesses(const SurfacePoints& fine, const SurfacePoints& coarse,
@@ -43,24 +60,29 @@ Witnesses choose_witnesses(const SurfacePoints& fine, const SurfacePoints& coars
     constexpr double min_shell_area = 1.5;  // m2, of a door leaf
     const std::vector<ShellPlane> shell = find_shell(coarse.positions, coarse.normals, directions,
                                                      scale.coarse_voxel, min_shell_area);
-    Witnesses witnesses{sample_surface(fine, num_witnesses), {}};
-    for (std::size_t i = 0; i < witnesses.points.positions.size(); ++i) {
-        const bool is_shell = is_on_shell(shell, witnesses.points.positions[i],
-                                          witnesses.points.normals[i], 0.75 * scale.coarse_voxel);
-        witnesses.is_detail.push_back(is_shell ? 0 : 1);
+    const std::size_t stride = std::max<std::size_t>(1, fine.positions.size() / num_witnesses);
+    Witnesses witnesses;
+    for (std::size_t i = 0; i < fine.positions.size(); i += stride) {
+        if (!fine.normals[i].allFinite()) continue;
+        const bool is_shell =
+            is_on_shell(shell, fine.positions[i], fine.normals[i], 0.75 * scale.coarse_voxel);
+        append_point(fine, i, (is_shell ? witnesses.shell : witnesses.detail).points);
     }
+    const double piece_size = std::max(0.3, 3.0 * scale.coarse_voxel);
+    number_pieces(witnesses.shell, piece_size);
+    number_pieces(witnesses.detail, piece_size);
     return witnesses;
 }
 
 /// Points whose histogram differs most from the scan's mean histogram: on bare walls and floors all
 /// histograms are alike and say nothing (persistence analysis, Rusu et al. 2008).
-std::vector<std::uint32_t> choose_distinctive(const FpfhDescriptors& descriptors) {
+std::vector<std::uint32_t> choose_distinctive(const Eigen::MatrixXf& descriptors) {
     // More matches cost more than they tell: pairs of matches are compared with each other.
     constexpr std::size_t max_keypoints = 2500;
     std::vector<std::uint32_t> order(static_cast<std::size_t>(descriptors.cols()));
     std::iota(order.begin(), order.end(), 0U);
     if (order.size() <= max_keypoints) return order;
-    const Eigen::Matrix<float, fpfh_size, 1> mean = descriptors.rowwise().mean();
+    const Eigen::VectorXf mean = descriptors.rowwise().mean();
     const Eigen::VectorXf distances = (descriptors.colwise() - mean).colwise().squaredNorm();
     std::stable_sort(order.begin(), order.end(), [&distances](std::uint32_t a, std::uint32_t b) {
         return distances[a] > distances[b];
@@ -70,9 +92,58 @@ std::vector<std::uint32_t> choose_distinctive(const FpfhDescriptors& descriptors
     return order;
 }
 
+DescribedPoints select_described(const DescribedPoints& all,
+                                 std::span<const std::uint32_t> indices) {
+    DescribedPoints selected;
+    selected.descriptors.resize(all.descriptors.rows(), static_cast<Eigen::Index>(indices.size()));
+    for (std::size_t i = 0; i < indices.size(); ++i) {
+        selected.positions.push_back(all.positions[indices[i]]);
+        selected.normals.push_back(all.normals[indices[i]]);
+        selected.descriptors.col(static_cast<Eigen::Index>(i)) = all.descriptors.col(indices[i]);
+    }
+    return selected;
+}
+
+DescribedPoints describe_distinctive(const SurfaceView& surface, double radius,
+                                     const Context& context) {
+    std::vector<std::uint32_t> candidates(surface.positions.size());
+    std::iota(candidates.begin(), candidates.end(), 0U);
+    const DescribedPoints all = describe_by_fpfh(surface, candidates, radius, context);
+    return select_described(all, choose_distinctive(all.descriptors));
+}
+
+struct ScanFeatures {
+    DescribedPoints fpfh;
+    DescribedPoints narf;
+};
+
+ScanFeatures describe_scan(const Scan& scan, const SurfaceView& surface,
+                           const RegistrationScale& scale, PairFeatures features,
+                           const Context& context) {
+    NarfView view;
+    if (uses_narf_keypoints(features))
+        view = find_narf_view(scan, {.support_size = scale.narf_support}, context);
+    ScanFeatures described;
+    if (uses_narf(features)) {
+        described.narf = describe_by_narf(view, surface, scale.narf_support, context);
+    }
+    described.fpfh = features == PairFeatures::fpfh_at_narf
+                         ? describe_by_fpfh(surface, nearest_points(surface, view.keypoints),
+                                            scale.fpfh_radius, context)
+                         : describe_distinctive(surface, scale.fpfh_radius, context);
+    return described;
+}
+
 }  // namespace
 
-PreparedScan prepare_scan(const Scan& scan, const RegistrationScale& scale,
+RegistrationScale joint_scale(const PreparedScan& a, const PreparedScan& b) {
+    RegistrationScale scale = a.scale;
+    scale.fine_voxel = std::max(scale.fine_voxel, b.scale.fine_voxel);
+    scale.noise = std::max(scale.noise, b.scale.noise);
+    return scale;
+}
+
+PreparedScan prepare_scan(const Scan& scan, const RegistrationScale& scale, PairFeatures features,
                           const Context& context) {
     const Eigen::Vector3d sensor_position = scan.sensor_position();
     const PointCloud fine_points =
@@ -81,15 +152,8 @@ PreparedScan prepare_scan(const Scan& scan, const RegistrationScale& scale,
         downsample_voxel_grid(fine_points, {.voxel_size = scale.coarse_voxel}, context).cloud;
     SurfacePoints fine = clean_surface(fine_points, sensor_position, context);
     SurfacePoints coarse = clean_surface(coarse_points, sensor_position, context);
-    std::vector<std::uint32_t> candidates(coarse.positions.size());
-    std::iota(candidates.begin(), candidates.end(), 0U);
-    const FpfhDescriptors all = compute_fpfh(coarse.positions, coarse.normals, coarse.tree,
-                                             candidates, {.radius = scale.fpfh_radius}, context);
-    std::vector<std::uint32_t> keypoints = choose_distinctive(all);
-    FpfhDescriptors descriptors(fpfh_size, static_cast<Eigen::Index>(keypoints.size()));
-    for (std::size_t i = 0; i < keypoints.size(); ++i) {
-        descriptors.col(static_cast<Eigen::Index>(i)) = all.col(keypoints[i]);
-    }
+    ScanFeatures described = describe_scan(scan, {coarse.positions, coarse.normals, coarse.tree},
+                                           scale, features, context);
 
     // Rims contradict up to a fifth of an honest but thin scan, a merged cloud a third of itself.
     constexpr double max_self_contradiction = 0.2;
@@ -106,13 +170,14 @@ PreparedScan prepare_scan(const Scan& scan, const RegistrationScale& scale,
     SurfaceGrid coarse_grid(coarse.positions, scale.coarse_voxel);
     std::vector<SurfaceDirection> directions = find_surface_directions(coarse.normals);
     Witnesses witnesses = choose_witnesses(fine, coarse, directions, scale);
-    return {std::move(coarse),
+    return {scale,
+            std::move(coarse),
             std::move(fine),
             std::move(coarse_sample),
             std::move(fine_sample),
             std::move(witnesses),
-            std::move(keypoints),
-            std::move(descriptors),
+            std::move(described.fpfh),
+            std::move(described.narf),
             spread,
             FreeSpace(scan.cloud.positions, sensor_position, 2.5),
             free_space_is_valid,

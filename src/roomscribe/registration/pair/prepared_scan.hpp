@@ -9,12 +9,17 @@
 #include "roomscribe/core/context.hpp"
 #include "roomscribe/geometry/search_tree.hpp"
 #include "roomscribe/model/scan.hpp"
-#include "roomscribe/registration/features/fpfh_descriptor.hpp"
+#include "roomscribe/registration/features/described_points.hpp"
 #include "roomscribe/registration/pair/free_space.hpp"
+#include "roomscribe/registration/pair/scan_features.hpp"
 #include "roomscribe/registration/pair/surface_directions.hpp"
 #include "roomscribe/registration/pair/surface_grid.hpp"
 
 namespace roomscribe {
+
+/// Two normals at least this near to each other may be of one surface, each estimated from another
+/// scan's points: 45 degrees.
+inline constexpr double same_surface_cosine = 0.707;
 
 /// A scan thinned to one spacing, with normals towards the scanner.
 struct SurfacePoints {
@@ -30,30 +35,40 @@ struct OrientedPoints {
     std::vector<float> deviations;
 };
 
-/// Points of a scan that a pose is held against.
-struct Witnesses {
+/// Points of a scan that a pose is held against, and the pieces of surface they belong to: cubes of
+/// 0.3 m or three coarse voxels. Points of one piece are no independent witnesses.
+struct WitnessSet {
     OrientedPoints points;
-    std::vector<std::uint8_t> is_detail;  ///< 0: on the shell, one of the scan's large planes
+    std::vector<std::uint32_t> pieces;  ///< of every point, numbered from 0
+    std::size_t num_pieces = 0;
 };
 
-/// Sizes that all scans of a job share, so that their descriptors can be compared.
+struct Witnesses {
+    WitnessSet shell;   ///< on one of the scan's large planes
+    WitnessSet detail;  ///< all others: furniture, reveals, what is small
+};
+
+/// Sizes that follow from the scans. Those marked are shared by all scans of a job, so that their
+/// descriptors can be compared.
 struct RegistrationScale {
-    double coarse_voxel = 0.1;  ///< m, of the points that are matched
+    double coarse_voxel = 0.1;  ///< m, of the points that are matched; shared
     double fine_voxel = 0.05;   ///< m, of the points that are aligned
-    double fpfh_radius = 0.5;   ///< m
+    double fpfh_radius = 0.5;   ///< m; shared
+    double narf_support = 0.5;  ///< m; shared
     double noise = 0.01;        ///< m
 };
 
 /// All that registration needs of a scan, computed once however many partners it meets.
 struct PreparedScan {
+    RegistrationScale scale;
     SurfacePoints coarse;
     SurfacePoints fine;
-    OrientedPoints coarse_sample;          ///< some of the coarse points, spread evenly
-    OrientedPoints fine_sample;            ///< some of the fine points, spread evenly
-    Witnesses witnesses;                   ///< some of the fine points, spread evenly
-    std::vector<std::uint32_t> keypoints;  ///< numbers of coarse points
-    FpfhDescriptors descriptors;           ///< one column per keypoint
-    PointSpread spread;                    ///< of the coarse points
+    OrientedPoints coarse_sample;  ///< some of the coarse points, spread evenly
+    OrientedPoints fine_sample;    ///< some of the fine points, spread evenly
+    Witnesses witnesses;           ///< some of the fine points, spread evenly
+    DescribedPoints fpfh;          ///< some of the coarse points
+    DescribedPoints narf;          ///< empty unless the features want them
+    PointSpread spread;            ///< of the coarse points
     FreeSpace free_space;
     /// The rays really start at the sensor position: what they passed through may be used.
     bool free_space_is_valid = false;
@@ -61,9 +76,13 @@ struct PreparedScan {
     std::vector<SurfaceDirection> directions;  ///< of the coarse points
 };
 
-/// Voxel grid, outlier removal, normals, keypoints, FPFH (steps 1 and 2 of the paper's Algorithm
-/// 1).
+/// The noise and the spacing of the worse of two scans.
+RegistrationScale joint_scale(const PreparedScan& a, const PreparedScan& b);
+
+/// Voxel grid, outlier removal, normals, keypoints, descriptors (steps 1 and 2 of the paper's
+/// Algorithm 1). FPFH is always there, since it also says which scans may show the same place: at
+/// NARF keypoints for `fpfh_at_narf`, else at the most distinctive points.
 PreparedScan prepare_scan(const Scan& scan, const RegistrationScale& scale,
-                          const Context& context = {});
+                          PairFeatures features = PairFeatures::fpfh, const Context& context = {});
 
 }  // namespace roomscribe

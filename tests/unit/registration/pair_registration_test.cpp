@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: MIT
+#include "roomscribe/registration/pair/pair_registration.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <numeric>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "roomscribe/core/random.hpp"
+#include "roomscribe/core/units.hpp"
+#include "support/contexts.hpp"
+#include "support/matchers.hpp"
+#include "support/shapes.hpp"
+#include "support/simulated_rooms.hpp"
+
+namespace roomscribe {
+namespace {
+
+using Eigen::Vector3d;
+using test::TransformNear;
+
+constexpr double coarseness = 3.0;
+
+PreparedScan prepare(const Scan& scan) {
+    return prepare_scan(
+        scan, {.coarse_voxel = 0.08, .fine_voxel = 0.03, .fpfh_radius = 0.4, .noise = 0.002});
+}
+
+Scan scan_from(const Vector3d& place, std::uint64_t seed) {
+    Transform pose = Transform::Identity();
+    pose.translation() = place;
+    return test::simulate_scan(test::l_shaped_room(), pose, seed, coarseness);
+}
+
+/// The same scan in another frame.
+Scan moved(Scan scan, const Transform& motion) {
+    for (Eigen::Vector3f& point : scan.cloud.positions)
+        point = (motion * point.cast<double>()).cast<float>();
+    Transform sensor = Transform::Identity();
+    sensor.translation() = motion * scan.sensor_position();
+    scan.cloud.sensor_pose = sensor;
+    return scan;
+}
+
+/// The points alone, in an order that says nothing of the scanner's.
+Scan shuffled(const Scan& scan, std::uint64_t seed) {
+    std::vector<std::size_t> order(scan.cloud.positions.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    Random random(seed);
+    for (std::size_t i = order.size(); i > 1; --i)
+        std::swap(order[i - 1], order[random.next() % i]);
+    Scan result;
+    result.cloud.sensor_pose = scan.cloud.sensor_pose;
+    for (const std::size_t i : order)
+        result.cloud.positions.push_back(scan.cloud.positions[i]);
+    return result;
+}
+
+class RegisterPairOfScans : public testing::Test {
+  protected:
+    static RegistrationLink link(const Scan& source, const Scan& target) {
+        return register_pair(prepare(source), prepare(target), 1);
+    }
+
+    const Scan source = scan_from({3.6, 2.0, 1.6}, 2);
+    const Scan target = scan_from({1.3, 2.2, 1.4}, 1);
+    const RegistrationLink direct = link(source, target);
+    // Of poses that should be one: the samples differ, and so do errors of a tenth of a voxel.
+    const double same_distance = 0.003;
+    const double same_angle = radians(0.1);
+};
+
+TEST_F(RegisterPairOfScans, IsAccepted) {
+    EXPECT_EQ(direct.verdict, LinkVerdict::accepted);
+    EXPECT_GE(direct.probability, 0.95);
+    EXPECT_TRUE(direct.rivals.empty());
+}
+
+TEST_F(RegisterPairOfScans, GivesTheInverseTheOtherWayRound) {
+    const RegistrationLink back = link(target, source);
+    EXPECT_EQ(back.verdict, LinkVerdict::accepted);
+    EXPECT_THAT(back.target_from_source,
+                TransformNear(direct.target_from_source.inverse(), same_distance, same_angle));
+}
+
+TEST_F(RegisterPairOfScans, MovesWithTheFramesOfTheScans) {
+    Random random(5);
+    for (int run = 0; run < 3; ++run) {
+        const Transform source_motion = test::random_transform(random, 3.0);
+        const Transform target_motion = test::random_transform(random, 3.0);
+        const RegistrationLink link =
+            this->link(moved(source, source_motion), moved(target, target_motion));
+        EXPECT_EQ(link.verdict, LinkVerdict::accepted);
+        EXPECT_THAT(target_motion.inverse() * link.target_from_source * source_motion,
+                    TransformNear(direct.target_from_source, same_distance, same_angle));
+    }
+}
+
+TEST_F(RegisterPairOfScans, TakesThePointsInAnyOrder) {
+    const RegistrationLink link = this->link(shuffled(source, 3), shuffled(target, 4));
+    EXPECT_EQ(link.verdict, LinkVerdict::accepted);
+    EXPECT_THAT(link.target_from_source,
+                TransformNear(direct.target_from_source, same_distance, same_angle));
+}
+
+TEST_F(RegisterPairOfScans, HasTheSameBitsOnAnyThreads) {
+    const RegistrationLink link =
+        register_pair(prepare(source), prepare(target), 1, {}, test::with_threads(3));
+    EXPECT_EQ(link.target_from_source.matrix(), direct.target_from_source.matrix());
+    EXPECT_EQ(link.covariance, direct.covariance);
+    EXPECT_EQ(link.probability, direct.probability);
+}
+
+TEST_F(RegisterPairOfScans, AGuessLeadsToTheSamePose) {
+    Transform nudge = Transform::Identity();
+    nudge.linear() = Eigen::AngleAxisd(radians(2.0), Vector3d::UnitY()).toRotationMatrix();
+    nudge.translation() = Vector3d(0.08, -0.05, 0.06);
+    const RegistrationLink link =
+        register_pair_from(prepare(source), prepare(target), nudge * direct.target_from_source);
+    EXPECT_EQ(link.verdict, LinkVerdict::accepted);
+    EXPECT_THAT(link.target_from_source,
+                TransformNear(direct.target_from_source, same_distance, same_angle));
+}
+
+TEST_F(RegisterPairOfScans, IsRejectedBetweenOtherRooms) {
+    Transform pose = Transform::Identity();
+    pose.translation() = Vector3d(2.0, 1.8, 1.5);
+    const RegistrationLink link =
+        this->link(test::simulate_scan(test::other_room(), pose, 7, coarseness), target);
+    EXPECT_NE(link.verdict, LinkVerdict::accepted);
+    EXPECT_LT(link.probability, 0.5);
+}
+
+}  // namespace
+}  // namespace roomscribe
