@@ -17,7 +17,9 @@ constexpr std::size_t max_depth = 4;
 constexpr float rounding = 1e-4F;
 
 struct Square {
-    int x, y, side;
+    int x = 0;
+    int y = 0;
+    int side = 0;
 
     std::array<Square, 4> quarters() const {
         const int half = side / 2;
@@ -142,7 +144,8 @@ class CandidateFinder {
     }
 
     Cell make_cell(const Square& square) const {
-        Cell cell{.square = square};
+        Cell cell;
+        cell.square = square;
         if (square.side > least_side) {
             for (const Square& quarter : square.quarters()) {
                 const Cell& part = cell.quarters.emplace_back(make_cell(quarter));
