@@ -85,6 +85,18 @@ TEST(CheckLoops, AnAmbiguousLinkTakesThePoseThatALoopLeadsTo) {
     EXPECT_THAT(links[2].target_from_source, TransformNear(truth, 1e-9, 1e-9));
 }
 
+TEST(CheckLoops, AnAmbiguousLinkThatSlidesFreelyStaysSo) {
+    for (const std::size_t free : {1U, 2U}) {  // one of the chain, the link itself
+        const std::vector<Transform> poses = some_poses(3);
+        std::vector<RegistrationLink> links = {true_link(poses, 1, 0), true_link(poses, 2, 1),
+                                               true_link(poses, 2, 0)};
+        links[2].verdict = LinkVerdict::ambiguous;
+        links[free].unobservable = {Vector6d::Unit(5)};
+        check_loops(links, {});
+        EXPECT_EQ(links[2].verdict, LinkVerdict::ambiguous);
+    }
+}
+
 TEST(CheckLoops, AnAmbiguousLinkThatNoLoopClosesStaysSo) {
     const std::vector<Transform> poses = some_poses(3);
     std::vector<RegistrationLink> links = {true_link(poses, 1, 0), true_link(poses, 2, 0)};

@@ -77,10 +77,11 @@ void reject_contradicted(std::vector<RegistrationLink>& links, const LinkToleran
 /// Gives an ambiguous link the one of its poses that accepted links lead to.
 void resolve_ambiguous(std::vector<RegistrationLink>& links, const LinkTolerance& tolerance) {
     for (RegistrationLink& link : links) {
-        if (link.verdict != LinkVerdict::ambiguous) continue;
+        // A link that slides freely agrees with too much.
+        if (link.verdict != LinkVerdict::ambiguous || !link.unobservable.empty()) continue;
         std::vector<bool> left_out(links.size(), false);
         const auto chain = take_chain(links, link.source, link.target, left_out, tolerance);
-        if (!chain) continue;
+        if (!chain || !chain->unobservable.empty()) continue;
         if (const auto pose = only_consistent_pose(link, *chain, tolerance))
             settle_link(link, *pose);
     }
