@@ -93,7 +93,7 @@ RegistrationLink register_pair(const PreparedScan& source, const PreparedScan& t
                           scale, settings, context)) {
             poses.push_back(std::move(pose));
         }
-        sort_by_evidence(poses);
+        sort_by_evidence(poses, settings.min_overlap);
     }
     if (poses.empty()) {
         RegistrationLink nothing;

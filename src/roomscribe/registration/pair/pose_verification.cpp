@@ -2,6 +2,7 @@
 #include "roomscribe/registration/pair/pose_verification.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace roomscribe {
 
@@ -87,10 +88,12 @@ VerifiedPose verify_pose(const PreparedScan& source, const PreparedScan& target,
     return pose;
 }
 
-void sort_by_evidence(std::vector<VerifiedPose>& poses) {
-    std::stable_sort(poses.begin(), poses.end(), [](const auto& a, const auto& b) {
-        return a.support.evidence() > b.support.evidence();
-    });
+void sort_by_evidence(std::vector<VerifiedPose>& poses, double min_overlap) {
+    const auto worth = [min_overlap](const VerifiedPose& pose) {
+        return std::pair(pose.support.overlap() >= min_overlap, pose.support.evidence());
+    };
+    std::stable_sort(poses.begin(), poses.end(),
+                     [&](const auto& a, const auto& b) { return worth(a) > worth(b); });
 }
 
 std::vector<VerifiedPose> verify_poses(const PreparedScan& source, const PreparedScan& target,
@@ -112,12 +115,14 @@ std::vector<VerifiedPose> verify_poses(const PreparedScan& source, const Prepare
         poses.push_back({icp, measure_support(source, target, icp.target_from_source,
                                               coarse_tolerance(scale), context)});
     }
-    sort_by_evidence(poses);
+    sort_by_evidence(poses, settings.min_overlap);
     // What a tenth contradicts even with a coarse pose's leeway will not be right after refinement:
     // the best alone is refined, for the record.
-    const auto first_hopeless = std::stable_partition(
-        poses.begin(), poses.end(),
-        [](const VerifiedPose& pose) { return pose.support.contradiction() <= 0.1; });
+    const auto first_hopeless =
+        std::stable_partition(poses.begin(), poses.end(), [&](const VerifiedPose& pose) {
+            return pose.support.contradiction() <= 0.1 &&
+                   pose.support.overlap() >= settings.min_overlap;
+        });
     const auto num_hopeful = static_cast<std::size_t>(first_hopeless - poses.begin());
     poses.resize(std::min({poses.size(), num_drawn_in, std::max<std::size_t>(num_hopeful, 1)}));
     const auto improve = [&](VerifiedPose& pose, auto step) {
@@ -127,11 +132,11 @@ std::vector<VerifiedPose> verify_poses(const PreparedScan& source, const Prepare
     };
     for (VerifiedPose& pose : poses)
         improve(pose, draw_in);
-    sort_by_evidence(poses);
+    sort_by_evidence(poses, settings.min_overlap);
     for (std::size_t i = 0; i < std::min<std::size_t>(poses.size(), 2); ++i) {
         if (i == 0 || poses[i].support.evidence() >= 0.0) improve(poses[i], refine);
     }
-    sort_by_evidence(poses);
+    sort_by_evidence(poses, settings.min_overlap);
     return poses;
 }
 

@@ -35,7 +35,8 @@ VerifiedPose verify_pose(const PreparedScan& source, const PreparedScan& target,
                          const Transform& guess, const RegistrationScale& scale,
                          const PairRegistrationSettings& settings, const Context& context);
 
-void sort_by_evidence(std::vector<VerifiedPose>& poses);
+/// By falling evidence; those with too little overlap, which nothing can contradict, come last.
+void sort_by_evidence(std::vector<VerifiedPose>& poses, double min_overlap);
 
 /// The different poses that the guesses lead to, by falling evidence. The best is refined to the
 /// end, and so is the next if it may be its rival.
