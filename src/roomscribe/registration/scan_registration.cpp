@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "roomscribe/core/error.hpp"
+#include "roomscribe/preprocessing/saturated_returns.hpp"
 #include "roomscribe/preprocessing/scan_statistics.hpp"
 #include "roomscribe/registration/graph/link_consistency.hpp"
 
@@ -22,11 +23,28 @@ double median_of(std::vector<double> values) {
     return *middle;
 }
 
-std::vector<ScanStatistics> measure_scans(std::span<const Scan> scans, const Context& context) {
+/// The scans without what is no return; those that have none are not copied.
+class CleanScans {
+  public:
+    explicit CleanScans(std::span<const Scan> scans) : as_given_(scans) {
+        for (const Scan& scan : scans)
+            cleaned_.push_back(without_saturated_returns(scan));
+    }
+    const Scan& operator[](std::size_t i) const {
+        return cleaned_[i] ? *cleaned_[i] : as_given_[i];
+    }
+    std::size_t size() const { return cleaned_.size(); }
+
+  private:
+    std::span<const Scan> as_given_;
+    std::vector<std::optional<Scan>> cleaned_;
+};
+
+std::vector<ScanStatistics> measure_scans(const CleanScans& scans, const Context& context) {
     std::vector<ScanStatistics> statistics;
     statistics.reserve(scans.size());
-    for (const Scan& scan : scans)
-        statistics.push_back(estimate_scan_statistics(scan.cloud, context));
+    for (std::size_t i = 0; i < scans.size(); ++i)
+        statistics.push_back(estimate_scan_statistics(scans[i].cloud, context));
     return statistics;
 }
 
@@ -227,7 +245,8 @@ ScanRegistration register_scans(std::span<const Scan> scans,
                               fmt::format("one per scan, {}, or none", scans.size()));
     }
     ScanRegistration result;
-    const std::vector<ScanStatistics> statistics = measure_scans(scans, context);
+    const CleanScans clean(scans);
+    const std::vector<ScanStatistics> statistics = measure_scans(clean, context);
     const RegistrationScale scale = derive_scale(statistics, settings, result.derived_values);
     const bool is_graph = settings.sequence == ScanSequence::graph;
     std::vector<std::size_t> as_given(scans.size());
@@ -236,7 +255,7 @@ ScanRegistration register_scans(std::span<const Scan> scans,
     std::vector<PreparedScan> prepared;
     prepared.reserve(scans.size());
     for (const std::size_t scan : order) {
-        prepared.push_back(prepare_scan(scans[scan],
+        prepared.push_back(prepare_scan(clean[scan],
                                         scale_of_scan(scale, statistics[scan], settings),
                                         settings.pair.features, context));
         context.report_progress(

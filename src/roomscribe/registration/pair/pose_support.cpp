@@ -120,16 +120,17 @@ double PoseSupport::contradiction() const {
 }
 
 double PoseSupport::evidence() const {
-    // Log-likelihood ratios of right against wrong poses, in units of a confirmed detail's
-    // (docs/registration.md). Wrong poses were chosen because they bring large planes together, so
-    // these say little for a pose; rays that passed speak alike against either. What is displaced
-    // says nothing: blurred surfaces are displaced at the right pose, too.
+    // Wrong poses were chosen because they bring large planes together, so these say little for a
+    // pose; rays that passed speak alike against either. What is displaced says nothing: blurred
+    // surfaces are displaced at the right pose, too. docs/registration.md
     constexpr double confirmed_shell = 0.02;
-    constexpr double contradicted = -6.0;
-    const auto number = [](std::size_t count) { return static_cast<double>(count); };
-    return 0.5 *
-           (number(detail.pieces.confirmed) + confirmed_shell * number(shell.pieces.confirmed) +
-            contradicted * number(detail.pieces.contradicted + shell.pieces.contradicted));
+    WitnessTally pieces = shell.pieces;
+    pieces += detail.pieces;
+    const double confirmed = static_cast<double>(detail.pieces.confirmed) +
+                             confirmed_shell * static_cast<double>(shell.pieces.confirmed);
+    const double contradicted =
+        share(static_cast<double>(pieces.contradicted), pieces.confirmed + pieces.contradicted);
+    return 0.5 * confirmed * (1.0 - contradicted / max_contradiction);
 }
 
 SupportTolerance coarse_tolerance(const RegistrationScale& scale) {

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+#include "roomscribe/preprocessing/saturated_returns.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+
+#include <Eigen/Core>
+
+namespace roomscribe {
+
+std::vector<std::uint32_t> find_saturated_returns(const Scan& scan) {
+    // The last two shells of the range, each this share of it thick: 6 cm of 30 m.
+    constexpr double shell_thickness = 0.002;
+    // Fewer mislead nobody; in a place the shell before the last holds as many as the last.
+    constexpr std::size_t min_returns = 100;
+    constexpr std::size_t min_ratio = 20;
+    // A plane crosses a shell of this thickness within 3.6 degrees of its perpendicular.
+    constexpr double max_plane_spread = 7.0 / 180.0 * 3.14159265358979323846;
+
+    const Eigen::Vector3d sensor = scan.sensor_position();
+    const auto& positions = scan.cloud.positions;
+    const auto ray_to = [&](std::size_t i) {
+        return Eigen::Vector3d(positions[i].cast<double>() - sensor);
+    };
+    double farthest = 0.0;
+    for (std::size_t i = 0; i < positions.size(); ++i) {
+        const double range = ray_to(i).norm();
+        if (std::isfinite(range)) farthest = std::max(farthest, range);
+    }
+    std::vector<std::uint32_t> last;
+    std::size_t num_before_last = 0;
+    std::size_t num_returns = 0;
+    for (std::size_t i = 0; i < positions.size(); ++i) {
+        const double range = ray_to(i).norm();
+        if (!std::isfinite(range)) continue;
+        ++num_returns;
+        if (range >= (1.0 - shell_thickness) * farthest) {
+            last.push_back(static_cast<std::uint32_t>(i));
+        } else if (range >= (1.0 - 2.0 * shell_thickness) * farthest) {
+            ++num_before_last;
+        }
+    }
+    // More than half: the inside of a dome.
+    if (last.size() < std::max(min_returns, min_ratio * num_before_last) ||
+        2 * last.size() > num_returns) {
+        return {};
+    }
+    Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+    for (const std::uint32_t i : last)
+        mean += ray_to(i).normalized();
+    mean /= static_cast<double>(last.size());
+    // Unit vectors within an angle of their mean have a mean at least as long as its cosine.
+    return mean.norm() < std::cos(max_plane_spread) ? last : std::vector<std::uint32_t>{};
+}
+
+std::optional<Scan> without_saturated_returns(const Scan& scan) {
+    const std::vector<std::uint32_t> saturated = find_saturated_returns(scan);
+    if (saturated.empty()) return std::nullopt;
+    Scan rest = scan;
+    for (const std::uint32_t i : saturated)
+        rest.cloud.positions[i].setConstant(std::numeric_limits<float>::quiet_NaN());
+    return rest;
+}
+
+}  // namespace roomscribe

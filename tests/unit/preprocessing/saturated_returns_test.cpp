@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+#include "roomscribe/preprocessing/saturated_returns.hpp"
+
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "support/shapes.hpp"
+
+namespace roomscribe {
+namespace {
+
+/// A hall of 12 x 8 x 3 m from its middle, seen in so many random directions. Where no light comes
+/// back, in `share_lost` of the directions, the scanner writes `max_range`.
+Scan scan_of_hall(double share_lost, double max_range, const Eigen::Vector3d& sensor) {
+    Random random(1);
+    Scan scan;
+    for (int i = 0; i < 20'000; ++i) {
+        const Eigen::Vector3d direction = test::random_direction(random);
+        const Eigen::Vector3d to_wall =
+            Eigen::Vector3d(6.0, 4.0, 1.5).cwiseQuotient(direction.cwiseAbs());
+        const bool is_lost = random.uniform() < share_lost;
+        const double range = is_lost ? max_range : to_wall.minCoeff() + 0.01 * random.normal();
+        scan.cloud.positions.emplace_back((sensor + range * direction).cast<float>());
+    }
+    Transform pose = Transform::Identity();
+    pose.translation() = sensor;
+    scan.cloud.sensor_pose = pose;
+    return scan;
+}
+
+TEST(SaturatedReturns, AreFoundWhereverTheSensorStands) {
+    for (const Eigen::Vector3d& sensor : {Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(40, -7, 3)}) {
+        const Scan scan = scan_of_hall(0.03, 32.767, sensor);
+        const std::vector<std::uint32_t> found = find_saturated_returns(scan);
+        std::vector<std::uint32_t> expected;
+        for (std::uint32_t i = 0; i < scan.cloud.positions.size(); ++i) {
+            if ((scan.cloud.positions[i].cast<double>() - sensor).norm() > 20.0)
+                expected.push_back(i);
+        }
+        ASSERT_GT(expected.size(), 400U);
+        EXPECT_EQ(found, expected);
+        const auto rest = without_saturated_returns(scan);
+        ASSERT_TRUE(rest.has_value());
+        EXPECT_EQ(rest->cloud.positions.size(), scan.cloud.positions.size());
+        for (const std::uint32_t i : found)
+            EXPECT_FALSE(rest->cloud.positions[i].allFinite());
+    }
+}
+
+TEST(SaturatedReturns, AHallHasNone) {
+    EXPECT_FALSE(
+        without_saturated_returns(scan_of_hall(0.0, 30.0, Eigen::Vector3d::Zero())).has_value());
+}
+
+TEST(SaturatedReturns, AFarPlaneSeenThroughADoorIsNone) {
+    // Its ranges differ by less than a shell: only that it lies in one direction tells.
+    Scan scan = scan_of_hall(0.0, 30.0, Eigen::Vector3d::Zero());
+    Random random(2);
+    for (int i = 0; i < 500; ++i) {
+        scan.cloud.positions.emplace_back(
+            Eigen::Vector3d(20.0, random.uniform() - 0.5, random.uniform() - 0.5).cast<float>());
+    }
+    EXPECT_TRUE(find_saturated_returns(scan).empty());
+}
+
+TEST(SaturatedReturns, TheInsideOfADomeIsNone) {
+    EXPECT_TRUE(find_saturated_returns(scan_of_hall(1.0, 5.0, Eigen::Vector3d::Zero())).empty());
+}
+
+TEST(SaturatedReturns, NothingOfNothing) {
+    EXPECT_TRUE(find_saturated_returns({}).empty());
+}
+
+}  // namespace
+}  // namespace roomscribe
