@@ -126,10 +126,14 @@ double PoseSupport::evidence() const {
     constexpr double confirmed_shell = 0.02;
     WitnessTally pieces = shell.pieces;
     pieces += detail.pieces;
+    const auto contradicted_share = [](const WitnessTally& tally) {
+        return share(static_cast<double>(tally.contradicted), tally.confirmed + tally.contradicted);
+    };
     const double confirmed = static_cast<double>(detail.pieces.confirmed) +
                              confirmed_shell * static_cast<double>(shell.pieces.confirmed);
+    // A corridor turned about fits all its shell: its details are not to be outvoted.
     const double contradicted =
-        share(static_cast<double>(pieces.contradicted), pieces.confirmed + pieces.contradicted);
+        std::max(contradicted_share(detail.pieces), contradicted_share(pieces));
     return 0.5 * confirmed * (1.0 - contradicted / max_contradiction);
 }
 
