@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "roomscribe/core/quantile.hpp"
+
 namespace roomscribe {
 namespace {
 
@@ -159,13 +161,6 @@ void reverse(AxisProfile& profile) {
     for (float& height : profile.planar_heights)
         height = -height;
     std::swap(profile.clutter_below, profile.clutter_above);
-}
-
-float quantile(std::vector<float> values, double share) {
-    if (values.empty()) return 0.0F;
-    const auto rank = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-    std::nth_element(values.begin(), values.begin() + rank, values.end());
-    return values[static_cast<std::size_t>(rank)];
 }
 
 std::vector<Eigen::Vector3f> find_clutter(const SurfaceSample& sample,

@@ -83,7 +83,4 @@ double supported_share(std::span<const Eigen::Vector3f> clutter, const AxisProfi
                        const SurfaceSample& sample, std::span<const PlanarPatch> patches,
                        const Eigen::Vector3d& up);
 
-/// The value that a share of the values is smaller than; 0 if there are none.
-float quantile(std::vector<float> values, double share);
-
 }  // namespace roomscribe

@@ -7,6 +7,7 @@
 
 #include <Eigen/Eigenvalues>
 
+#include "roomscribe/core/quantile.hpp"
 #include "roomscribe/core/units.hpp"
 #include "roomscribe/interpretation/axis_profile.hpp"
 

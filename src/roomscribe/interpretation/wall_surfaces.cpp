@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "roomscribe/core/quantile.hpp"
 #include "roomscribe/core/units.hpp"
 
 namespace roomscribe {
@@ -49,13 +50,7 @@ Extent extent_along(const SurfaceSample& sample, const PlanarPatch& patch,
     for (const std::uint32_t point : patch.points) {
         positions.push_back(sample.cloud.positions[point].cast<double>().dot(direction));
     }
-    const auto rank = [&](double share) {
-        const auto n =
-            static_cast<std::ptrdiff_t>(share * static_cast<double>(positions.size() - 1));
-        std::nth_element(positions.begin(), positions.begin() + n, positions.end());
-        return positions[static_cast<std::size_t>(n)];
-    };
-    return {rank(stray_share), rank(1.0 - stray_share)};
+    return {quantile(positions, stray_share), quantile(positions, 1.0 - stray_share)};
 }
 
 Plane upright_plane(const PlanarPatch& patch, const Eigen::Vector3d& up) {

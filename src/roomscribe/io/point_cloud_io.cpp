@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "roomscribe/core/error.hpp"
+#include "roomscribe/core/quantile.hpp"
 #include "roomscribe/io/byte_reader.hpp"
 #include "roomscribe/io/file_contents.hpp"
 #include "roomscribe/io/pcd.hpp"
@@ -39,12 +40,6 @@ FileContents read_contents(const std::filesystem::path& path, const Context& con
     const MappedFile file(path, "");
     throw IoError(file.path(), "", {}, fmt::format("the extension '{}' is unknown", extension),
                   "give a .pcd, .ply, .3d or .vtk file");
-}
-
-double median(std::vector<double>& values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
 }
 
 /// How far half of the points are from their middle, from an even sample. Far returns and ghosts

@@ -5,18 +5,13 @@
 #include <cmath>
 
 #include "roomscribe/core/parallel.hpp"
+#include "roomscribe/core/quantile.hpp"
 
 namespace roomscribe {
 namespace {
 
 /// Standard deviation of a normal distribution over its median absolute deviation.
 constexpr double deviation_from_mad = 1.4826;
-
-double median(std::vector<double> values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
-}
 
 }  // namespace
 
@@ -43,16 +38,15 @@ std::vector<std::uint32_t> remove_outliers(std::span<const Eigen::Vector3f> posi
         }
     });
 
-    const double center = median(log_distances);
-    std::vector<double> deviations(log_distances.size());
+    std::vector<double> deviations = log_distances;
+    const double center = median(deviations);
     std::transform(log_distances.begin(), log_distances.end(), deviations.begin(),
                    [center](double value) { return std::abs(value - center); });
     // A cloud thinned to an even spacing has next to no deviation, and the rim of every surface,
     // where neighbours stand on one side only, would count as outlying. Thinned laser scans deviate
     // by more.
     constexpr double min_deviation = 0.15;
-    const double deviation =
-        std::max(min_deviation, deviation_from_mad * median(std::move(deviations)));
+    const double deviation = std::max(min_deviation, deviation_from_mad * median(deviations));
     const double limit = center + settings.max_deviations * deviation;
     for (std::uint32_t i = 0; i < positions.size(); ++i) {
         if (log_distances[i] <= limit) kept.push_back(i);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <numbers>
 
 #include <Eigen/Core>
 
@@ -17,34 +18,33 @@ std::vector<std::uint32_t> find_saturated_returns(const Scan& scan) {
     constexpr std::size_t min_returns = 100;
     constexpr std::size_t min_ratio = 20;
     // A plane crosses a shell of this thickness within 3.6 degrees of its perpendicular.
-    constexpr double max_plane_spread = 7.0 / 180.0 * 3.14159265358979323846;
+    constexpr double max_plane_spread = 7.0 / 180.0 * std::numbers::pi;
 
     const Eigen::Vector3d sensor = scan.sensor_position();
     const auto& positions = scan.cloud.positions;
     const auto ray_to = [&](std::size_t i) {
         return Eigen::Vector3d(positions[i].cast<double>() - sensor);
     };
-    double farthest = 0.0;
-    for (std::size_t i = 0; i < positions.size(); ++i) {
-        const double range = ray_to(i).norm();
-        if (std::isfinite(range)) farthest = std::max(farthest, range);
-    }
+    const std::vector<std::uint32_t> returns = finite_points(scan.cloud);
+    double squared_end = 0.0;
+    for (const std::uint32_t i : returns)
+        squared_end = std::max(squared_end, ray_to(i).squaredNorm());
+    const auto lies_within = [&](std::size_t i, double share_of_end) {
+        return ray_to(i).squaredNorm() >= share_of_end * share_of_end * squared_end;
+    };
     std::vector<std::uint32_t> last;
     std::size_t num_before_last = 0;
-    std::size_t num_returns = 0;
-    for (std::size_t i = 0; i < positions.size(); ++i) {
-        const double range = ray_to(i).norm();
-        if (!std::isfinite(range)) continue;
-        ++num_returns;
-        if (range >= (1.0 - shell_thickness) * farthest) {
-            last.push_back(static_cast<std::uint32_t>(i));
-        } else if (range >= (1.0 - 2.0 * shell_thickness) * farthest) {
+    for (const std::uint32_t i : returns) {
+        if (!lies_within(i, 1.0 - 2.0 * shell_thickness)) continue;
+        if (lies_within(i, 1.0 - shell_thickness)) {
+            last.push_back(i);
+        } else {
             ++num_before_last;
         }
     }
     // More than half: the inside of a dome.
     if (last.size() < std::max(min_returns, min_ratio * num_before_last) ||
-        2 * last.size() > num_returns) {
+        2 * last.size() > returns.size()) {
         return {};
     }
     Eigen::Vector3d mean = Eigen::Vector3d::Zero();
@@ -52,7 +52,8 @@ std::vector<std::uint32_t> find_saturated_returns(const Scan& scan) {
         mean += ray_to(i).normalized();
     mean /= static_cast<double>(last.size());
     // Unit vectors within an angle of their mean have a mean at least as long as its cosine.
-    return mean.norm() < std::cos(max_plane_spread) ? last : std::vector<std::uint32_t>{};
+    if (mean.norm() >= std::cos(max_plane_spread)) return {};
+    return last;
 }
 
 std::optional<Scan> without_saturated_returns(const Scan& scan) {

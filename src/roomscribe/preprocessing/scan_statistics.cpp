@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "roomscribe/core/parallel.hpp"
+#include "roomscribe/core/quantile.hpp"
 #include "roomscribe/geometry/plane.hpp"
 #include "roomscribe/geometry/search_tree.hpp"
 #include "roomscribe/preprocessing/voxel_grid.hpp"
@@ -25,13 +26,6 @@ constexpr double cells_along_extent = 60.0;
 /// At least this share of a scan's surface is smooth (floor, ceiling, walls): the quantile of the
 /// residuals that measures noise rather than shape.
 constexpr double smooth_quantile = 0.3;
-
-double quantile(std::vector<double>& values, double share) {
-    if (values.empty()) return 0.0;
-    const auto rank = std::lround(share * static_cast<double>(values.size() - 1));
-    std::nth_element(values.begin(), values.begin() + rank, values.end());
-    return values[static_cast<std::size_t>(rank)];
-}
 
 /// Of the finite points; some hundred thousand of them are enough.
 double middle_extent(const std::vector<Eigen::Vector3f>& points) {

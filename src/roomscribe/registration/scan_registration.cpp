@@ -10,18 +10,13 @@
 #include <fmt/format.h>
 
 #include "roomscribe/core/error.hpp"
+#include "roomscribe/core/quantile.hpp"
 #include "roomscribe/preprocessing/saturated_returns.hpp"
 #include "roomscribe/preprocessing/scan_statistics.hpp"
 #include "roomscribe/registration/graph/link_consistency.hpp"
 
 namespace roomscribe {
 namespace {
-
-double median_of(std::vector<double> values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
-}
 
 /// The scans without what is no return; those that have none are not copied.
 class CleanScans {
@@ -78,9 +73,9 @@ RegistrationScale derive_scale(std::span<const ScanStatistics> scans,
         extents.push_back(statistics.extent);
     }
     if (extents.empty()) return {};
-    const double spacing = median_of(spacings);
-    const double noise = median_of(noises);
-    const double extent = median_of(extents);
+    const double spacing = median(spacings);
+    const double noise = median(noises);
+    const double extent = median(extents);
     const auto derive = [&derived](std::string name, const std::optional<double>& fixed,
                                    double value, std::string reason) {
         if (fixed) {

@@ -10,6 +10,7 @@
 
 #include "roomscribe/core/error.hpp"
 #include "roomscribe/core/parallel.hpp"
+#include "roomscribe/core/quantile.hpp"
 
 namespace roomscribe {
 namespace {
@@ -276,9 +277,7 @@ float high_count(const Raster<Pile>& piles) {
         if (pile.count > 0) counts.push_back(pile.count);
     }
     if (counts.empty()) return 1.0F;
-    const auto rank = counts.begin() + static_cast<std::ptrdiff_t>(counts.size() * 98 / 100);
-    std::nth_element(counts.begin(), rank, counts.end());
-    return static_cast<float>(*rank);
+    return static_cast<float>(quantile(counts, 0.98));
 }
 
 Image draw_density(std::span<const Eigen::Vector3f> points, const PointColor& color,

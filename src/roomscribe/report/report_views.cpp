@@ -5,6 +5,8 @@
 #include <array>
 #include <vector>
 
+#include "roomscribe/core/quantile.hpp"
+
 namespace roomscribe {
 namespace {
 
@@ -25,12 +27,6 @@ Eigen::AlignedBox3d box_of_points(const Reconstruction& reconstruction) {
     }
     Eigen::AlignedBox3d box;
     if (values[0].empty()) return box;
-    const auto quantile = [](std::vector<double>& sample, double share) {
-        const auto rank =
-            static_cast<std::ptrdiff_t>(share * static_cast<double>(sample.size() - 1));
-        std::nth_element(sample.begin(), sample.begin() + rank, sample.end());
-        return sample[static_cast<std::size_t>(rank)];
-    };
     for (std::size_t axis = 0; axis < 3; ++axis) {
         box.min()(static_cast<Eigen::Index>(axis)) = quantile(values[axis], 0.01);
         box.max()(static_cast<Eigen::Index>(axis)) = quantile(values[axis], 0.99);

@@ -7,6 +7,7 @@
 #include <limits>
 #include <utility>
 
+#include "roomscribe/core/quantile.hpp"
 #include "roomscribe/evaluation/protocol.hpp"
 #include "roomscribe/evaluation/registration_error.hpp"
 #include "roomscribe/registration/features/fpfh_descriptor.hpp"
@@ -56,12 +57,6 @@ bool is_near(const Transform& found, const Transform& truth) {
     const PoseError error = pose_error(found, truth);
     return error.translation <= protocol::loose_pose.translation &&
            error.rotation <= protocol::loose_pose.rotation;
-}
-
-double median(std::vector<double> values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
 }
 
 /// Of the source scan's origin, m per axis of the target frame.
@@ -151,7 +146,7 @@ DescriptorComparison compare_descriptors(const ScanPair& scans, const Context& c
                 pose && scans.target_from_source && is_near(*pose, *scans.target_from_source) ? 1
                                                                                               : 0;
         }
-        row.ours.fitness[i] = median(std::move(scores));
+        row.ours.fitness[i] = median(scores);
         if (scans.target_from_source) row.num_aligned[i] = num_aligned;
     }
     return row;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "roomscribe/core/quantile.hpp"
 #include "roomscribe/geometry/search_tree.hpp"
 #include "roomscribe/preprocessing/normal_estimation.hpp"
 
@@ -33,10 +34,7 @@ void face_scanners(const ScanMap& map, SurfaceSample& sample) {
 
 double lower_quartile(std::vector<float> values) {
     std::erase_if(values, [](float value) { return !std::isfinite(value); });
-    if (values.empty()) return 0.0;
-    const auto quartile = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 4);
-    std::nth_element(values.begin(), quartile, values.end());
-    return static_cast<double>(*quartile);
+    return static_cast<double>(quantile(values, 0.25));
 }
 
 }  // namespace

@@ -131,7 +131,7 @@ TEST(MeasureSupport, DetailsTellTheRightPoseFromOneThatTheShellLikesToo) {
     const PoseSupport right =
         measure_support(scans.source, scans.target, scans.target_from_source, tolerance);
     ASSERT_TRUE(right.free_space_is_known);
-    EXPECT_LT(right.contradiction(), 0.015);
+    EXPECT_LT(right.all().contradicted_share(), 0.015);
     EXPECT_GT(10 * right.detail.pieces.confirmed, 8 * right.detail.pieces.judged());
     EXPECT_GT(right.overlap(), 0.3);
 
@@ -140,7 +140,7 @@ TEST(MeasureSupport, DetailsTellTheRightPoseFromOneThatTheShellLikesToo) {
     slid.translation().x() += 0.5;
     const PoseSupport wrong = measure_support(scans.source, scans.target, slid, tolerance);
     EXPECT_GT(wrong.overlap(), 0.2);
-    EXPECT_GT(wrong.contradiction(), 0.03);
+    EXPECT_GT(wrong.all().contradicted_share(), 0.03);
     EXPECT_LT(2 * wrong.detail.pieces.confirmed, wrong.detail.pieces.judged());
     EXPECT_GT(right.evidence(), 15.0);
     EXPECT_LT(wrong.evidence(), 0.0);

@@ -9,24 +9,17 @@
 
 #include "roomscribe/core/error.hpp"
 #include "roomscribe/core/parallel.hpp"
+#include "roomscribe/core/quantile.hpp"
 
 namespace roomscribe {
 namespace {
-
-/// The value that a share of the others does not exceed; 0 of none.
-double quantile(std::vector<float>& values, double share) {
-    if (values.empty()) return 0.0;
-    const auto rank = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-    std::nth_element(values.begin(), values.begin() + rank, values.end());
-    return static_cast<double>(values[static_cast<std::size_t>(rank)]);
-}
 
 double median_variance(std::span<const float> deviations) {
     std::vector<float> known;
     std::copy_if(deviations.begin(), deviations.end(), std::back_inserter(known),
                  [](float deviation) { return std::isfinite(deviation); });
-    const double median = quantile(known, 0.5);
-    return median * median;
+    const double deviation = static_cast<double>(median(known));
+    return deviation * deviation;
 }
 
 double variance_of(std::span<const float> deviations, std::size_t i) {

@@ -11,6 +11,7 @@
 #include <Eigen/Geometry>
 
 #include "roomscribe/core/error.hpp"
+#include "roomscribe/core/quantile.hpp"
 #include "roomscribe/registration/alignment/icp_pairs.hpp"
 #include "roomscribe/registration/alignment/residual_field.hpp"
 
@@ -83,10 +84,8 @@ double measure_normal_noise(const Observations& observations) {
         squares.push_back(
             (observations.rows[i].direction - observations.source_directions[i]).squaredNorm());
     }
-    const auto middle = squares.begin() + static_cast<std::ptrdiff_t>(squares.size() / 2);
-    std::nth_element(squares.begin(), middle, squares.end());
     // Two normals, two axes: 2 variance chi^2_2, whose median is 2 ln 2.
-    return std::sqrt(*middle / (4.0 * std::log(2.0)));
+    return std::sqrt(median(squares) / (4.0 * std::log(2.0)));
 }
 
 Observations observe(const IcpPairing& pairing, const IcpSource& source, IcpMethod method) {

@@ -83,6 +83,10 @@ WitnessCount hear_all(const WitnessSet& witnesses, std::size_t stride, const Pre
 
 }  // namespace
 
+double WitnessTally::contradicted_share() const {
+    return share(static_cast<double>(contradicted), confirmed + contradicted);
+}
+
 WitnessTally& WitnessTally::operator+=(const WitnessTally& other) {
     total += other.total;
     confirmed += other.confirmed;
@@ -112,13 +116,6 @@ double PoseSupport::agreement() const {
     return share(static_cast<double>(sum.confirmed), sum.judged());
 }
 
-double PoseSupport::contradiction() const {
-    const WitnessTally sum = all();
-    if (sum.contradicted == 0) return 0.0;
-    return static_cast<double>(sum.contradicted) /
-           static_cast<double>(std::max<std::size_t>(sum.confirmed, 1));
-}
-
 double PoseSupport::evidence() const {
     // Wrong poses were chosen because they bring large planes together, so these say little for a
     // pose; rays that passed speak alike against either. What is displaced says nothing: blurred
@@ -126,14 +123,11 @@ double PoseSupport::evidence() const {
     constexpr double confirmed_shell = 0.02;
     WitnessTally pieces = shell.pieces;
     pieces += detail.pieces;
-    const auto contradicted_share = [](const WitnessTally& tally) {
-        return share(static_cast<double>(tally.contradicted), tally.confirmed + tally.contradicted);
-    };
     const double confirmed = static_cast<double>(detail.pieces.confirmed) +
                              confirmed_shell * static_cast<double>(shell.pieces.confirmed);
     // A corridor turned about fits all its shell: its details are not to be outvoted.
     const double contradicted =
-        std::max(contradicted_share(detail.pieces), contradicted_share(pieces));
+        std::max(detail.pieces.contradicted_share(), pieces.contradicted_share());
     return 0.5 * confirmed * (1.0 - contradicted / max_contradiction);
 }
 

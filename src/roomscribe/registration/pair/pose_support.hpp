@@ -22,6 +22,8 @@ struct WitnessTally {
     std::size_t contradicted = 0;  ///< where the other scan's rays passed and met nothing
 
     std::size_t judged() const { return confirmed + displaced + contradicted; }
+    /// Contradicted as a share of those that are confirmed or contradicted; 0 of none.
+    double contradicted_share() const;
     WitnessTally& operator+=(const WitnessTally& other);
 };
 
@@ -52,8 +54,6 @@ struct PoseSupport {
     double overlap() const;
     /// Share that is confirmed of those on which the other scan has a say.
     double agreement() const;
-    /// Contradicted as a share of the confirmed ones.
-    double contradiction() const;
     /// What poses are ranked and judged by, in confirmed pieces of detail: these, and a little for
     /// the shell's, less the more pieces are contradicted; below 0 beyond `max_contradiction`. A
     /// share counts and not a number, because contradictions come together: one pane of glass, one

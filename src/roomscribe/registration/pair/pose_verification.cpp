@@ -120,7 +120,7 @@ std::vector<VerifiedPose> verify_poses(const PreparedScan& source, const Prepare
     // the best alone is refined, for the record.
     const auto first_hopeless =
         std::stable_partition(poses.begin(), poses.end(), [&](const VerifiedPose& pose) {
-            return pose.support.contradiction() <= max_contradiction &&
+            return pose.support.all().contradicted_share() <= max_contradiction &&
                    pose.support.overlap() >= settings.min_overlap;
         });
     const auto num_hopeful = static_cast<std::size_t>(first_hopeless - poses.begin());

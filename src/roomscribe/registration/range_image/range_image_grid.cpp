@@ -8,6 +8,8 @@
 #include <numbers>
 #include <vector>
 
+#include "roomscribe/core/quantile.hpp"
+
 namespace roomscribe {
 namespace {
 
@@ -93,10 +95,7 @@ class AngleFit {
             const double step = wrapped(angles_[i + stride] - angles_[i]);
             if (!std::isnan(step)) steps.push_back(step);
         }
-        if (steps.empty()) return 0.0;
-        const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-        std::nth_element(steps.begin(), middle, steps.end());
-        return *middle;
+        return median(steps);
     }
 
     const Angles& angles_;
