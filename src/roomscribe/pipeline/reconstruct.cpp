@@ -3,7 +3,7 @@
 
 #include <utility>
 
-#include "roomscribe/structure/plane_growing.hpp"
+#include "roomscribe/structure/planar_surfaces.hpp"
 #include "roomscribe/structure/plane_ransac.hpp"
 
 namespace roomscribe {
@@ -13,8 +13,8 @@ std::uint64_t seed_of(const PipelineSettings& settings) {
     return static_cast<std::uint64_t>(settings.seed);
 }
 
-std::vector<PlanarPatch> find_planes(const SurfaceSample& sample, const PipelineSettings& settings,
-                                     const Context& context) {
+std::vector<PlanarPatch> find_planes(const ScanMap& map, const SurfaceSample& sample,
+                                     const PipelineSettings& settings, const Context& context) {
     if (settings.structure.plane_method == PlaneMethod::ransac) {
         return detect_planes_ransac(sample.cloud, seed_of(settings),
                                     {.distance_tolerance = sample.tolerance,
@@ -23,9 +23,10 @@ std::vector<PlanarPatch> find_planes(const SurfaceSample& sample, const Pipeline
                                     context)
             .planes;
     }
-    return grow_planar_patches(
-        sample.cloud, {.distance_tolerance = sample.tolerance, .cell_size = 2.0 * sample.spacing},
-        context);
+    return find_planar_surfaces(
+               map, sample,
+               {.distance_tolerance = sample.tolerance, .cell_size = 2.0 * sample.spacing}, context)
+        .patches;
 }
 
 PrincipalAxes find_axes(const ScanMap& map, const SurfaceSample& sample,
@@ -89,7 +90,7 @@ void interpret_map(Reconstruction& reconstruction, const PipelineSettings& setti
     SurfaceSample sample = sample_surface(map, statistics, settings.structure.sample, context);
     sample.tolerance = settings.structure.plane_tolerance.value_or(sample.tolerance);
     finish("sample surface", 0.4);
-    const std::vector<PlanarPatch> patches = find_planes(sample, settings, context);
+    const std::vector<PlanarPatch> patches = find_planes(map, sample, settings, context);
     finish("planes", 0.7);
     const PrincipalAxes axes = find_axes(map, sample, patches, settings, context);
     finish("principal axes", 0.75);

@@ -68,14 +68,6 @@ Transform random_world_frame(std::uint64_t seed) {
     return map_from_building;
 }
 
-SimulatedWorld build_world(const Scenario& scenario) {
-    SimulatedWorld world;
-    add_building(world, scenario);
-    for (const ItemPlan& item : scenario.items)
-        add_item(world, item);
-    return world;
-}
-
 /// Instances are indices of components here.
 std::vector<std::size_t> points_of_components(std::span<const std::int32_t> instances,
                                               std::size_t num_components) {
@@ -109,6 +101,14 @@ Scenario plan_scene(SceneKind kind, std::uint64_t seed, const SceneOptions& opti
     scenario.stations =
         choose_stations(scenario, rooms_to_scan(kind, scenario), per_room, stations);
     return scenario;
+}
+
+SimulatedWorld build_world(const Scenario& scenario) {
+    SimulatedWorld world;
+    add_building(world, scenario);
+    for (const ItemPlan& item : scenario.items)
+        add_item(world, item);
+    return world;
 }
 
 SimulatedScene simulate_scene(const Scenario& scenario, const Context& context) {

@@ -9,6 +9,7 @@
 #include "roomscribe/model/scan.hpp"
 #include "roomscribe/simulation/building/building_plan.hpp"
 #include "roomscribe/simulation/scenario.hpp"
+#include "roomscribe/simulation/simulated_world.hpp"
 
 namespace roomscribe {
 
@@ -21,6 +22,10 @@ struct SceneOptions {
 /// Makes up a whole scenario: building, furniture, stations. The same arguments, the same scenario.
 /// Throws InvalidArgument for a coarseness or number out of range.
 Scenario plan_scene(SceneKind kind, std::uint64_t seed, const SceneOptions& options = {});
+
+/// The building with all that stands in it, in its own frame. Throws InvalidArgument for a scenario
+/// that cannot be built.
+SimulatedWorld build_world(const Scenario& scenario);
 
 /// What the scanner brings home, and the truth about it.
 struct SimulatedScene {

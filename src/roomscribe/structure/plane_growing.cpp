@@ -27,13 +27,14 @@ struct Region {
 
 class Grower {
   public:
-    Grower(const PointCloud& cloud, const PlaneGrowingSettings& settings, const Context& context)
+    Grower(const PointCloud& cloud, const NeighborGraph& graph,
+           const PlaneGrowingSettings& settings, const Context& context)
         : positions_(cloud.positions),
           normals_(cloud.normals),
           settings_(settings),
           context_(context),
           min_normal_cosine_(std::cos(settings.normal_tolerance)),
-          graph_(positions_, SearchTree(positions_), settings.num_neighbors, context),
+          graph_(graph),
           owner_(cloud.size(), nobody),
           visited_(cloud.size(), 0) {}
 
@@ -55,7 +56,7 @@ class Grower {
     const PlaneGrowingSettings& settings_;
     const Context& context_;
     double min_normal_cosine_;
-    NeighborGraph graph_;
+    const NeighborGraph& graph_;
     std::vector<std::uint32_t> owner_;    ///< per point: number of its region
     std::vector<std::uint32_t> visited_;  ///< per point: last flood that reached it
     std::uint32_t flood_number_ = 0;
@@ -275,7 +276,7 @@ std::vector<PlanarPatch> Grower::run() {
 
 }  // namespace
 
-std::vector<PlanarPatch> grow_planar_patches(const PointCloud& cloud,
+std::vector<PlanarPatch> grow_planar_patches(const PointCloud& cloud, const NeighborGraph& graph,
                                              const PlaneGrowingSettings& settings,
                                              const Context& context) {
     check_settings(settings);
@@ -285,8 +286,22 @@ std::vector<PlanarPatch> grow_planar_patches(const PointCloud& cloud,
     if (!std::all_of(cloud.positions.begin(), cloud.positions.end(), is_finite)) {
         throw InvalidArgument("cloud", "a point that is not finite", "finite points only");
     }
-    if (cloud.empty()) return {};
-    return Grower(cloud, settings, context).run();
+    if (graph.size() != cloud.size()) {
+        throw InvalidArgument("graph", "another number of points", "the graph of the cloud");
+    }
+    return Grower(cloud, graph, settings, context).run();
+}
+
+std::vector<PlanarPatch> grow_planar_patches(const PointCloud& cloud,
+                                             const PlaneGrowingSettings& settings,
+                                             const Context& context) {
+    check_settings(settings);
+    if (!std::all_of(cloud.positions.begin(), cloud.positions.end(), is_finite)) {
+        throw InvalidArgument("cloud", "a point that is not finite", "finite points only");
+    }
+    const NeighborGraph graph(cloud.positions, SearchTree(cloud.positions), settings.num_neighbors,
+                              context);
+    return grow_planar_patches(cloud, graph, settings, context);
 }
 
 }  // namespace roomscribe

@@ -7,13 +7,14 @@
 #include "roomscribe/core/settings.hpp"
 #include "roomscribe/core/units.hpp"
 #include "roomscribe/geometry/point_cloud.hpp"
+#include "roomscribe/structure/neighbor_graph.hpp"
 #include "roomscribe/structure/planar_patch.hpp"
 
 namespace roomscribe {
 
 struct PlaneGrowingSettings {
     double distance_tolerance = 0.03;
-    double normal_tolerance = radians(22.5);
+    double normal_tolerance = radians(15.0);
     int num_neighbors = 12;
     int min_points = 30;
     double min_area = 0.05;
@@ -31,8 +32,9 @@ struct PlaneGrowingSettings {
              .unit = "rad",
              .min = 0.0,
              .max = 1.5707963267948966,
-             .doc = "Largest angle between a point's normal and its plane's. Half of 45 degrees, "
-                    "the least angle at which surfaces of a building commonly meet."});
+             .doc =
+                 "Largest angle between a point's normal and its plane's. A third of 45 degrees, "
+                 "the least angle at which surfaces of a building commonly meet."});
         visitor(num_neighbors, {.name = "num_neighbors",
                                 .unit = "",
                                 .min = 3,
@@ -68,6 +70,11 @@ struct PlaneGrowingSettings {
 /// The cloud's order does not matter but for ties. Empty if nothing is planar; points of no patch
 /// are nobody's. Throws InvalidArgument if the cloud has no normals or points that are not finite.
 std::vector<PlanarPatch> grow_planar_patches(const PointCloud& cloud,
+                                             const PlaneGrowingSettings& settings = {},
+                                             const Context& context = {});
+
+/// The same over a graph that is at hand: that of the cloud's positions.
+std::vector<PlanarPatch> grow_planar_patches(const PointCloud& cloud, const NeighborGraph& graph,
                                              const PlaneGrowingSettings& settings = {},
                                              const Context& context = {});
 

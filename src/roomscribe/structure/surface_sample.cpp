@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "roomscribe/core/quantile.hpp"
 #include "roomscribe/geometry/search_tree.hpp"
@@ -35,6 +36,79 @@ void face_scanners(const ScanMap& map, SurfaceSample& sample) {
 double lower_quartile(std::vector<float> values) {
     std::erase_if(values, [](float value) { return !std::isfinite(value); });
     return static_cast<double>(quantile(values, 0.25));
+}
+
+/// Per voxel the standard deviation of its points along its normal; NaN for fewer than 4 points.
+std::vector<float> spread_in_voxels(const ScanMap& map, const SurfaceSample& sample) {
+    constexpr std::uint32_t enough = 4;
+    std::vector<double> squares(sample.cloud.size(), 0.0);
+    std::vector<std::uint32_t> counts(sample.cloud.size(), 0);
+    for (std::size_t i = 0; i < map.cloud.size(); ++i) {
+        const std::uint32_t voxel = sample.voxel_of_point[i];
+        if (voxel == no_voxel) continue;
+        const Eigen::Vector3f offset = map.cloud.positions[i] - sample.cloud.positions[voxel];
+        const double height = static_cast<double>(sample.cloud.normals[voxel].dot(offset));
+        squares[voxel] += height * height;
+        ++counts[voxel];
+    }
+    std::vector<float> spread(squares.size(), std::numeric_limits<float>::quiet_NaN());
+    for (std::size_t i = 0; i < spread.size(); ++i) {
+        if (counts[i] >= enough)
+            spread[i] = static_cast<float>(std::sqrt(squares[i] / (counts[i] - 1.0)));
+    }
+    return spread;
+}
+
+/// How a voxel was seen: from how far, and at which angle. Of several scanners the last counts.
+struct Sight {
+    float range = 0.0F;
+    float cosine = 0.0F;
+};
+
+std::vector<Sight> find_sights(const ScanMap& map, const SurfaceSample& sample) {
+    std::vector<Sight> sights(sample.cloud.size());
+    for (const MapSection& section : map.sections) {
+        const Eigen::Vector3f sensor = section.sensor_position->cast<float>();
+        for (std::uint32_t i = section.first; i < section.first + section.count; ++i) {
+            const std::uint32_t voxel = sample.voxel_of_point[i];
+            if (voxel == no_voxel) continue;
+            const Eigen::Vector3f ray = sensor - map.cloud.positions[i];
+            const float range = ray.norm();
+            sights[voxel] = {range, std::abs(sample.cloud.normals[voxel].dot(ray)) / range};
+        }
+    }
+    return sights;
+}
+
+/// A scanner's noise lies along its rays and depends on the range: across a surface it is the less
+/// the more obliquely that is seen.
+std::vector<float> noise_of_sight(const ScanMap& map, const SurfaceSample& sample) {
+    std::vector<float> noise(sample.cloud.size(), static_cast<float>(sample.noise));
+    if (!sample.normals_face_scanner) return noise;
+    // Bins of half a doubling from 2 cm on.
+    constexpr std::size_t num_bins = 32;
+    constexpr std::size_t enough = 50;
+    constexpr float min_cosine = 0.4F;
+    const auto bin_of = [](float range) {
+        const double bin = 2.0 * std::log2(std::max(static_cast<double>(range), 0.02) / 0.02);
+        return static_cast<std::size_t>(std::min(bin, static_cast<double>(num_bins - 1)));
+    };
+    const std::vector<Sight> sights = find_sights(map, sample);
+    const std::vector<float> spread = spread_in_voxels(map, sample);
+    std::vector<std::vector<float>> along_ray(num_bins);
+    for (std::size_t i = 0; i < spread.size(); ++i) {
+        if (std::isfinite(spread[i]) && sights[i].cosine >= min_cosine)
+            along_ray[bin_of(sights[i].range)].push_back(spread[i] / sights[i].cosine);
+    }
+    std::vector<float> of_bin(num_bins, 0.0F);
+    for (std::size_t bin = 0; bin < num_bins; ++bin) {
+        if (along_ray[bin].size() >= enough) of_bin[bin] = median(along_ray[bin]);
+    }
+    for (std::size_t i = 0; i < noise.size(); ++i) {
+        if (std::isfinite(sights[i].cosine))
+            noise[i] = std::max(noise[i], of_bin[bin_of(sights[i].range)] * sights[i].cosine);
+    }
+    return noise;
 }
 
 }  // namespace
@@ -76,6 +150,7 @@ SurfaceSample sample_surface(const ScanMap& map, const ScanStatistics& statistic
         std::all_of(map.sections.begin(), map.sections.end(),
                     [](const MapSection& section) { return section.sensor_position.has_value(); });
     if (sample.normals_face_scanner) face_scanners(map, sample);
+    sample.noise_of_voxel = noise_of_sight(map, sample);
     return sample;
 }
 

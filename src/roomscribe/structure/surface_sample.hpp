@@ -27,6 +27,10 @@ struct SurfaceSample {
     /// m, standard deviation of the points about smooth surface: that of the statistics, or the
     /// lower quartile over the sample where that is more.
     double noise = 0.0;
+    /// m, per voxel: the standard deviation of its points across its surface, as they follow from
+    /// its range and the angle at which it was seen; `noise` at least. A depth camera sees what is
+    /// far with ten times the noise of what is near.
+    std::vector<float> noise_of_voxel;
     /// m, how far a point of a plane may lie from it: see plane_tolerance.
     double tolerance = 0.0;
 };

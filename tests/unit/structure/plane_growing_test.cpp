@@ -7,25 +7,14 @@
 
 #include <gtest/gtest.h>
 
+#include "flat_clouds.hpp"
 #include "roomscribe/core/error.hpp"
 #include "roomscribe/core/random.hpp"
 
 namespace roomscribe {
 namespace {
 
-/// A rectangle sampled every `step`, with its normal and Gaussian noise along it.
-void add_rectangle(PointCloud& cloud, const Eigen::Vector3d& corner, const Eigen::Vector3d& u,
-                   const Eigen::Vector3d& v, double step, double noise, Random& random) {
-    const Eigen::Vector3d normal = u.cross(v).normalized();
-    for (double a = 0.5 * step; a < u.norm(); a += step) {
-        for (double b = 0.5 * step; b < v.norm(); b += step) {
-            const Eigen::Vector3d point =
-                corner + a * u.normalized() + b * v.normalized() + noise * random.normal() * normal;
-            cloud.positions.push_back(point.cast<float>());
-            cloud.normals.push_back(normal.cast<float>());
-        }
-    }
-}
+using test::add_rectangle;
 
 Context with_threads(int count) {
     Context context;
