@@ -64,7 +64,21 @@ class PatchCandidates {
     std::vector<std::array<std::uint32_t, 4>> candidates_;
 };
 
-/// The map's points by the grown patch whose plane they are nearest to.
+/// The map's points voxel by voxel, those of no voxel left out.
+std::vector<std::uint32_t> sort_by_voxel(const SurfaceSample& sample) {
+    std::vector<std::uint32_t> next(sample.cloud.size() + 1, 0);
+    for (const std::uint32_t voxel : sample.voxel_of_point) {
+        if (voxel != no_voxel) ++next[voxel + 1];
+    }
+    std::partial_sum(next.begin(), next.end(), next.begin());
+    std::vector<std::uint32_t> points(next.back());
+    for (std::uint32_t i = 0; i < sample.voxel_of_point.size(); ++i) {
+        if (sample.voxel_of_point[i] != no_voxel) points[next[sample.voxel_of_point[i]]++] = i;
+    }
+    return points;
+}
+
+/// The map's points by the grown patch whose plane they are nearest to, voxel by voxel.
 std::vector<std::vector<std::uint32_t>> share_out(const ScanMap& map, const SurfaceSample& sample,
                                                   std::span<const PlanarPatch> patches,
                                                   const PatchCandidates& candidates, double reach,
@@ -86,7 +100,7 @@ std::vector<std::vector<std::uint32_t>> share_out(const ScanMap& map, const Surf
         }
     });
     std::vector<std::vector<std::uint32_t>> points(patches.size());
-    for (std::uint32_t i = 0; i < nearest.size(); ++i) {
+    for (const std::uint32_t i : sort_by_voxel(sample)) {
         if (nearest[i] != nobody) points[nearest[i]].push_back(i);
     }
     return points;
@@ -137,7 +151,7 @@ class LayerSplitter {
           settings_(settings),
           tile_size_(std::max(min_tile_size, 6.0 * sample.spacing)) {}
 
-    /// The connected pieces of every layer near a grown patch.
+    /// The connected pieces of every layer near a grown patch. The points come voxel by voxel.
     std::vector<Surface> split(const PlanarPatch& grown, std::span<const std::uint32_t> points,
                                const Context& context) const {
         std::vector<ReliefPoint> relief;
@@ -152,17 +166,13 @@ class LayerSplitter {
                 points_of[layers.layer_of_point[i]].push_back(points[i]);
         }
         std::vector<Surface> surfaces;
-        for (auto& of_layer : points_of)
-            add_pieces(std::move(of_layer), grown, surfaces, context);
+        for (const auto& of_layer : points_of)
+            add_pieces(of_layer, grown, surfaces, context);
         return surfaces;
     }
 
   private:
-    std::vector<LayerVoxel> gather_voxels(std::vector<std::uint32_t>& points) const {
-        std::sort(points.begin(), points.end(), [&](std::uint32_t a, std::uint32_t b) {
-            return std::pair(sample_.voxel_of_point[a], a) <
-                   std::pair(sample_.voxel_of_point[b], b);
-        });
+    std::vector<LayerVoxel> gather_voxels(std::span<const std::uint32_t> points) const {
         std::vector<LayerVoxel> voxels;
         for (std::uint32_t begin = 0; begin < points.size();) {
             const std::uint32_t voxel = sample_.voxel_of_point[points[begin]];
@@ -177,7 +187,7 @@ class LayerSplitter {
         return voxels;
     }
 
-    void add_pieces(std::vector<std::uint32_t> points, const PlanarPatch& grown,
+    void add_pieces(std::span<const std::uint32_t> points, const PlanarPatch& grown,
                     std::vector<Surface>& surfaces, const Context& context) const {
         if (points.size() < static_cast<std::size_t>(settings_.min_points)) return;
         const std::vector<LayerVoxel> voxels = gather_voxels(points);
