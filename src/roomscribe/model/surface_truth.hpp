@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include <Eigen/Core>
 
 #include "roomscribe/geometry/plane.hpp"
+#include "roomscribe/geometry/quadrilateral.hpp"
 
 namespace roomscribe {
 
@@ -16,6 +17,8 @@ namespace roomscribe {
 struct TrueSurface {
     Plane plane;        ///< in the map's frame; the sign means nothing
     double area = 0.0;  ///< m2
+    /// Its corners, if it is a rectangle without holes: a leaf, a front, a board.
+    std::optional<Quadrilateral> rectangle;
 };
 
 /// The planar surfaces of a world and the points that lie on them: what planes are held against.

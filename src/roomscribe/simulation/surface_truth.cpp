@@ -7,6 +7,7 @@
 #include <map>
 #include <numeric>
 #include <optional>
+#include <span>
 #include <tuple>
 
 #include <Eigen/Eigenvalues>
@@ -93,6 +94,41 @@ struct AreaMoments {
     }
 };
 
+/// The rectangle that facets fill, if they do: along their longest edge.
+std::optional<Quadrilateral> rectangle_of(std::span<const Facet* const> facets,
+                                          const Plane& plane) {
+    Eigen::Vector3d along = Eigen::Vector3d::Zero();
+    double area = 0.0;
+    for (const Facet* facet : facets) {
+        area += facet->area;
+        for (std::size_t i = 0; i < 3; ++i) {
+            const Eigen::Vector3d edge = facet->corners[(i + 1) % 3] - facet->corners[i];
+            // The diagonal of a rectangle is longer than its sides, but has the right angle
+            // opposite.
+            const Eigen::Vector3d a = facet->corners[i] - facet->corners[(i + 2) % 3];
+            const Eigen::Vector3d b = facet->corners[(i + 1) % 3] - facet->corners[(i + 2) % 3];
+            const bool is_diagonal = std::abs(a.normalized().dot(b.normalized())) < 1e-3;
+            if (!is_diagonal && edge.squaredNorm() > along.squaredNorm()) along = edge;
+        }
+    }
+    if (along.isZero()) return std::nullopt;
+    const Eigen::Vector3d u = (along - along.dot(plane.normal) * plane.normal).normalized();
+    const Eigen::Vector3d v = plane.normal.cross(u);
+    Eigen::AlignedBox2d box;
+    for (const Facet* facet : facets) {
+        for (const Eigen::Vector3d& corner : facet->corners)
+            box.extend(Eigen::Vector2d(corner.dot(u), corner.dot(v)));
+    }
+    constexpr double min_fill = 0.97;
+    if (area < min_fill * box.volume() || area > box.volume() / min_fill) return std::nullopt;
+    const auto place = [&](double x, double y) {
+        return Eigen::Vector3d(x * u + y * v + plane.offset * plane.normal);
+    };
+    return Quadrilateral{{place(box.min().x(), box.min().y()), place(box.max().x(), box.min().y()),
+                          place(box.max().x(), box.max().y()),
+                          place(box.min().x(), box.max().y())}};
+}
+
 /// Which triangles make one surface: a number per triangle, -1 for the facets of round things.
 class SurfaceGroups {
   public:
@@ -107,17 +143,22 @@ class SurfaceGroups {
     std::vector<std::int32_t> number(std::vector<TrueSurface>& surfaces) {
         std::vector<std::int32_t> number_of(root_.size(), -1);
         std::vector<AreaMoments> moments;
+        std::vector<std::vector<const Facet*>> facets_of;
         for (std::size_t i = 0; i < root_.size(); ++i) {
             if (facets_[i].area < min_facet) continue;
             std::int32_t& number = number_of[find(i)];
             if (number < 0) {
                 number = static_cast<std::int32_t>(moments.size());
                 moments.emplace_back();
+                facets_of.emplace_back();
             }
             moments[static_cast<std::size_t>(number)].add(facets_[i]);
+            facets_of[static_cast<std::size_t>(number)].push_back(&facets_[i]);
         }
-        for (const AreaMoments& of_surface : moments)
-            surfaces.push_back({of_surface.plane(), of_surface.area});
+        for (std::size_t n = 0; n < moments.size(); ++n) {
+            const Plane plane = moments[n].plane();
+            surfaces.push_back({plane, moments[n].area, rectangle_of(facets_of[n], plane)});
+        }
         for (std::size_t i = 0; i < root_.size(); ++i) {
             if (facets_[i].area >= min_facet) number_of[i] = number_of[find(i)];
         }
@@ -217,6 +258,9 @@ SurfaceTruth find_surface_truth(const Scenario& scenario, const SimulatedScene& 
         const Eigen::Vector3d on_plane = surface.plane.offset * surface.plane.normal;
         surface.plane.normal = map_from_world.linear() * surface.plane.normal;
         surface.plane.offset = surface.plane.normal.dot(map_from_world * on_plane);
+        if (!surface.rectangle) continue;
+        for (Eigen::Vector3d& corner : surface.rectangle->corners)
+            corner = map_from_world * corner;
     }
     return truth;
 }

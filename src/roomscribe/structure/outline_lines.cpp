@@ -136,6 +136,10 @@ std::vector<OutlineLine> find_outline_lines(const PatchOutline& outline,
         }
         for (auto& [stretch, line] : of_loop) {
             line.loop = number;
+            // The last row of points lies half a spacing before the rim, on average.
+            const Vector2d outwards(line.direction().y(), -line.direction().x());
+            line.start += 0.5 * outline.spacing * outwards;
+            line.end += 0.5 * outline.spacing * outwards;
             if (line.length() >= settings.min_length) lines.push_back(line);
         }
     }

@@ -31,7 +31,8 @@ struct OutlineLineSettings {
 
 /// The straight stretches of all loops: each loop is split where it strays furthest from the chord
 /// (Douglas and Peucker 1973), each stretch is fitted by least squares without its ends, where
-/// corners are rounded off, and neighbouring stretches that are one line are joined. In the order
+/// corners are rounded off, and moved out by half the spacing of the points, which is how far the
+/// last row lies before the rim; neighbouring stretches that are one line are joined. In the order
 /// of the loops.
 std::vector<OutlineLine> find_outline_lines(const PatchOutline& outline,
                                             const OutlineLineSettings& settings = {});

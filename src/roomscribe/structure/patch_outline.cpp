@@ -50,6 +50,10 @@ class Raster {
                cells_[index(column, row)];
     }
 
+    std::size_t num_filled() const {
+        return static_cast<std::size_t>(std::count(cells_.begin(), cells_.end(), true));
+    }
+
     /// Whether the cells are too small for the points: many are empty between filled ones, or
     /// filled with hardly any neighbour.
     bool is_too_fine() const {
@@ -278,6 +282,8 @@ PatchOutline trace_outline(std::span<const Eigen::Vector3f> positions,
     outline.cell_size = std::max(min_cell_size, least_cell_size(places));
     Raster raster = choose_raster(places, outline.cell_size);
     raster.close_gaps();
+    outline.spacing = outline.cell_size * std::sqrt(static_cast<double>(raster.num_filled()) /
+                                                    static_cast<double>(places.size()));
     outline.loops = RimWalker(raster, places).walk();
     return outline;
 }

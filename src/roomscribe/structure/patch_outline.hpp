@@ -22,6 +22,7 @@ struct OutlineLoop {
 struct PatchOutline {
     std::vector<OutlineLoop> loops;
     double cell_size = 0.0;  ///< m, of the raster that it was traced on: gaps under it are closed
+    double spacing = 0.0;    ///< m, of the points, were they even
 };
 
 /// Outline of the points on a plane: they are entered in a raster whose cells are as small as the

@@ -381,11 +381,15 @@ bool is_narrow(const SurfaceSample& sample, std::span<const std::uint32_t> voxel
     return !fit || 12.0 * fit->variances[1] < 4.0 * sample.voxel_size * sample.voxel_size;
 }
 
+NeighborGraph graph_of(const SurfaceSample& sample, const PlaneGrowingSettings& settings,
+                       const Context& context) {
+    return NeighborGraph(sample.cloud.positions, SearchTree(sample.cloud.positions),
+                         settings.num_neighbors, context);
+}
+
 std::vector<Surface> find_surfaces(const ScanMap& map, const SurfaceSample& sample,
-                                   const PlaneGrowingSettings& settings, const Context& context) {
-    if (sample.cloud.empty()) return {};
-    const NeighborGraph graph(sample.cloud.positions, SearchTree(sample.cloud.positions),
-                              settings.num_neighbors, context);
+                                   const NeighborGraph& graph, const PlaneGrowingSettings& settings,
+                                   const Context& context) {
     std::vector<PlanarPatch> grown = grow_planar_patches(sample.cloud, graph, settings, context);
     std::erase_if(grown, [&](const PlanarPatch& patch) { return is_narrow(sample, patch.points); });
     const std::vector<std::vector<std::uint32_t>> points =
@@ -443,6 +447,39 @@ ScanMap remaining_map(const ScanMap& map, const SurfaceSample& sample,
     return rest;
 }
 
+/// Points of no patch that lie on one that has a voxel beside theirs: creases and rims, where the
+/// normals of voxels say nothing.
+void claim_rims(const ScanMap& map, const SurfaceSample& sample, const NeighborGraph& graph,
+                std::span<const Surface> surfaces, PlanarSurfaces& result, const Context& context) {
+    constexpr double max_deviations = 3.0;
+    const float reach = static_cast<float>(1.5 * sample.voxel_size);
+    const std::vector<std::uint32_t> owner = owners_of_voxels(sample, surfaces);
+    parallel_for(context, map.cloud.size(), 8192, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            const std::uint32_t voxel = sample.voxel_of_point[i];
+            if (voxel == no_voxel || result.patch_of_point[i] != no_patch) continue;
+            const Eigen::Vector3d point = map.cloud.positions[i].cast<double>();
+            const double noise =
+                std::max(static_cast<double>(sample.noise_of_voxel[voxel]), roughness);
+            double best = max_deviations * noise;
+            const auto consider = [&](std::uint32_t beside) {
+                if (owner[beside] == nobody) return;
+                const double distance =
+                    std::abs(result.patches[owner[beside]].plane.signed_distance(point));
+                if (distance >= best) return;
+                best = distance;
+                result.patch_of_point[i] = static_cast<std::int32_t>(owner[beside]);
+            };
+            consider(voxel);
+            for (const std::uint32_t beside : graph.neighbors(voxel)) {
+                const Eigen::Vector3f offset =
+                    sample.cloud.positions[beside] - map.cloud.positions[i];
+                if (offset.norm() <= reach) consider(beside);
+            }
+        }
+    });
+}
+
 /// Frames and the edges of boards are narrower than the voxels: what is left is looked at once more
 /// with finer ones.
 void add_narrow_surfaces(const ScanMap& map, const SurfaceSample& sample,
@@ -458,7 +495,9 @@ void add_narrow_surfaces(const ScanMap& map, const SurfaceSample& sample,
                                         {.voxel_size = 0.5 * sample.voxel_size}, context);
     fine.noise = sample.noise;
     settings.cell_size = 2.0 * fine.spacing;
-    std::vector<Surface> narrow = find_surfaces(rest, fine, settings, context);
+    if (fine.cloud.empty()) return;
+    std::vector<Surface> narrow =
+        find_surfaces(rest, fine, graph_of(fine, settings, context), settings, context);
     for (Surface& surface : narrow) {
         for (std::uint32_t& point : surface.map_points)
             point = numbers[point];
@@ -472,8 +511,11 @@ PlanarSurfaces find_planar_surfaces(const ScanMap& map, const SurfaceSample& sam
                                     const PlaneGrowingSettings& settings, const Context& context) {
     PlanarSurfaces result;
     result.patch_of_point.assign(map.cloud.size(), no_patch);
-    std::vector<Surface> surfaces = find_surfaces(map, sample, settings, context);
+    if (sample.cloud.empty()) return result;
+    const NeighborGraph graph = graph_of(sample, settings, context);
+    std::vector<Surface> surfaces = find_surfaces(map, sample, graph, settings, context);
     add_narrow_surfaces(map, sample, settings, surfaces, context);
+    merge_touching(map, sample, graph, settings.cell_size, surfaces);
     std::stable_sort(surfaces.begin(), surfaces.end(), [](const Surface& a, const Surface& b) {
         return a.patch.area > b.patch.area;
     });
@@ -482,6 +524,7 @@ PlanarSurfaces find_planar_surfaces(const ScanMap& map, const SurfaceSample& sam
             result.patch_of_point[point] = static_cast<std::int32_t>(result.patches.size());
         result.patches.push_back(std::move(surface.patch));
     }
+    claim_rims(map, sample, graph, surfaces, result, context);
     settle_voxels(sample, result);
     return result;
 }

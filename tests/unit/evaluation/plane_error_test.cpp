@@ -17,8 +17,8 @@ struct FloorAndWall {
     SurfaceTruth truth;
 
     FloorAndWall() {
-        truth.surfaces = {{Plane{Eigen::Vector3d::UnitZ(), 0.0}, 4.0},
-                          {Plane{Eigen::Vector3d::UnitX(), 0.0}, 4.0}};
+        truth.surfaces = {{Plane{Eigen::Vector3d::UnitZ(), 0.0}, 4.0, {}},
+                          {Plane{Eigen::Vector3d::UnitX(), 0.0}, 4.0, {}}};
         for (int i = 0; i < 2100; ++i) {
             const auto along = static_cast<float>(i % 40) / 20.0F;
             const auto across = static_cast<float>(i % 37) / 18.0F;
