@@ -25,6 +25,18 @@ void PlaneMoments::add(const Eigen::Vector3d& point) {
     sum_of_squares.noalias() += offset * offset.transpose();
 }
 
+PlaneMoments& PlaneMoments::operator+=(const PlaneMoments& other) {
+    if (other.count == 0) return *this;
+    if (count == 0) return *this = other;
+    const Eigen::Vector3d shift = other.reference - reference;
+    const auto n = static_cast<double>(other.count);
+    sum_of_squares += other.sum_of_squares + shift * other.sum.transpose() +
+                      other.sum * shift.transpose() + n * shift * shift.transpose();
+    sum += other.sum + n * shift;
+    count += other.count;
+    return *this;
+}
+
 std::optional<PlaneFit> PlaneMoments::fit() const {
     if (count < 3) return std::nullopt;
     const auto n = static_cast<double>(count);

@@ -53,6 +53,7 @@ struct PlaneMoments {
     Eigen::Matrix3d sum_of_squares = Eigen::Matrix3d::Zero();
 
     void add(const Eigen::Vector3d& point);
+    PlaneMoments& operator+=(const PlaneMoments& other);
     std::optional<PlaneFit> fit() const;
 };
 

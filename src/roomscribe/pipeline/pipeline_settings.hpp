@@ -21,10 +21,11 @@ namespace roomscribe {
 enum class PlaneMethod : std::uint8_t {
     growing,  ///< all connected patches, big and small
     ransac,   ///< the paper's: one plane after the other, the largest first
+    hough,    ///< the same without drawing lots
 };
 
 inline std::span<const std::string_view> enumerator_names(PlaneMethod) {
-    static constexpr std::array<std::string_view, 2> names{"growing", "ransac"};
+    static constexpr std::array<std::string_view, 3> names{"growing", "ransac", "hough"};
     return names;
 }
 
@@ -48,9 +49,11 @@ struct StructureSettings {
     PrincipalAxesSettings axes;
 
     void visit(SettingVisitor& visitor) {
-        visitor(plane_method, {.name = "plane_method",
-                               .unit = "",
-                               .doc = "All connected patches, or the paper's RANSAC loop."});
+        visitor(plane_method,
+                {.name = "plane_method",
+                 .unit = "",
+                 .doc = "All connected patches, the paper's RANSAC loop, or the same by the "
+                        "Hough transform."});
         visitor(axes_method, {.name = "axes_method",
                               .unit = "",
                               .doc = "A vote of all patches, or the paper's Algorithm 2."});

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "roomscribe/structure/planar_surfaces.hpp"
+#include "roomscribe/structure/plane_hough.hpp"
 #include "roomscribe/structure/plane_ransac.hpp"
 
 namespace roomscribe {
@@ -21,6 +22,13 @@ std::vector<PlanarPatch> find_planes(const ScanMap& map, const SurfaceSample& sa
                                      .min_inliers = settings.structure.min_plane_inliers,
                                      .consensus = {}},
                                     context)
+            .planes;
+    }
+    if (settings.structure.plane_method == PlaneMethod::hough) {
+        return detect_planes_hough(sample.cloud,
+                                   {.distance_tolerance = sample.tolerance,
+                                    .min_inliers = settings.structure.min_plane_inliers},
+                                   context)
             .planes;
     }
     return find_planar_surfaces(

@@ -8,6 +8,7 @@
 #include <Eigen/Core>
 
 #include "roomscribe/geometry/plane.hpp"
+#include "roomscribe/geometry/point_cloud.hpp"
 
 namespace roomscribe {
 
@@ -26,5 +27,10 @@ struct PlanarPatch {
 /// plane that hold a point. Points further apart than `cell_size` count a square each.
 double occupied_area(std::span<const Eigen::Vector3f> positions,
                      std::span<const std::uint32_t> points, const Plane& plane, double cell_size);
+
+/// A patch of points near a plane, whether or not they are connected: the plane is fitted to them,
+/// and where the cloud has normals these decide its sign. `inliers` number the cloud's points.
+PlanarPatch make_planar_patch(const PointCloud& cloud, Plane plane,
+                              std::vector<std::uint32_t> inliers);
 
 }  // namespace roomscribe

@@ -64,35 +64,6 @@ struct PlaneProblem {
     }
 };
 
-/// Mean distance of neighbouring inliers is not known here; their spread over the plane gives it.
-double cell_size(const PlaneFit& fit, std::size_t count) {
-    const double extent = std::sqrt(12.0 * std::max(fit.variances[1], 1e-12)) *
-                          std::sqrt(12.0 * std::max(fit.variances[2], 1e-12));
-    return 2.0 * std::sqrt(extent / static_cast<double>(count));
-}
-
-PlanarPatch make_patch(const PointCloud& cloud, Plane plane, std::vector<std::uint32_t> inliers) {
-    PlanarPatch patch;
-    if (const auto fit = fit_plane(cloud.positions, inliers)) {
-        plane = fit->plane;
-        patch.centroid = fit->centroid;
-        patch.rms = fit->rms;
-        patch.area =
-            occupied_area(cloud.positions, inliers, plane, cell_size(*fit, inliers.size()));
-    }
-    if (!cloud.normals.empty()) {
-        std::ptrdiff_t votes = 0;
-        for (const std::uint32_t point : inliers) {
-            const double cosine = cloud.normals[point].cast<double>().dot(plane.normal);
-            votes += (cosine > 0.0 ? 1 : 0) - (cosine < 0.0 ? 1 : 0);
-        }
-        if (votes < 0) plane = plane.flipped();
-    }
-    patch.plane = plane;
-    patch.points = std::move(inliers);
-    return patch;
-}
-
 }  // namespace
 
 PlaneRansacResult detect_planes_ransac(const PointCloud& cloud, std::uint64_t seed,
@@ -121,7 +92,7 @@ PlaneRansacResult detect_planes_ransac(const PointCloud& cloud, std::uint64_t se
         rest.reserve(left.size() - inliers.size());
         std::set_difference(left.begin(), left.end(), inliers.begin(), inliers.end(),
                             std::back_inserter(rest));
-        result.planes.push_back(make_patch(cloud, *found.model, std::move(inliers)));
+        result.planes.push_back(make_planar_patch(cloud, *found.model, std::move(inliers)));
         left = std::move(rest);
     }
     result.remaining_points = std::move(left);

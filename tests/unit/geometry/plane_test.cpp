@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "roomscribe/core/random.hpp"
 #include "support/matchers.hpp"
 #include "support/shapes.hpp"
 
@@ -122,6 +123,28 @@ TEST(PlaneMoments, FitGoesOnWhilePointsAreAdded) {
             EXPECT_EQ(fit->plane.normal, expected->plane.normal);
         }
     }
+}
+
+TEST(PlaneMoments, SumsOfPartsAreThoseOfTheWhole) {
+    Random random(6);
+    PlaneMoments whole;
+    PlaneMoments parts[3];
+    for (int i = 0; i < 60; ++i) {
+        const Eigen::Vector3d point(100.0 + random.normal(), 0.5 * random.normal(),
+                                    -7.0 + 0.01 * random.normal());
+        whole.add(point);
+        parts[i < 7 ? 0 : 1].add(point);
+    }
+    PlaneMoments sum;
+    for (const PlaneMoments& part : parts)
+        sum += part;
+    const auto expected = whole.fit();
+    const auto found = sum.fit();
+    ASSERT_TRUE(expected && found);
+    EXPECT_EQ(sum.count, 60U);
+    EXPECT_NEAR(found->rms, expected->rms, 1e-12);
+    EXPECT_LT((found->centroid - expected->centroid).norm(), 1e-12);
+    EXPECT_GT(std::abs(found->plane.normal.dot(expected->plane.normal)), 1.0 - 1e-12);
 }
 
 }  // namespace
