@@ -36,8 +36,8 @@ class PlaneGrid {
         std::partial_sum(start_.begin(), start_.end(), start_.begin());
         members_.resize(places_.size());
         std::vector<std::uint32_t> next(start_.begin(), start_.end() - 1);
-        for (std::uint32_t i = 0; i < places_.size(); ++i)
-            members_[next[index(cell_of(places_[i]))]++] = places_[i];
+        for (const Vector2f& place : places_)
+            members_[next[index(cell_of(place))]++] = place;
     }
 
     /// Offsets to the neighbours of a point, other points at its place left out.

@@ -30,8 +30,8 @@ std::vector<Eigen::Vector3f> spread_directions(double step) {
         const double z = (static_cast<double>(i) + 0.5) / static_cast<double>(count);
         const double around = golden_angle * static_cast<double>(i);
         const double radius = std::sqrt(1.0 - z * z);
-        directions.push_back(
-            Eigen::Vector3d(radius * std::cos(around), radius * std::sin(around), z).cast<float>());
+        const Eigen::Vector3d direction(radius * std::cos(around), radius * std::sin(around), z);
+        directions.emplace_back(direction.cast<float>());
     }
     return directions;
 }

@@ -12,8 +12,6 @@ namespace {
 
 /// Stretches of a tile along either side: each counts alike in the tile's density of heights.
 constexpr int stretches = 6;
-/// Plaster, wood and paint are rough by so much: what is measured more finely is no relief.
-constexpr double roughness = 0.001;
 /// Finished walls may be out of true by this (DIN 18202, table 3: 5 mm over 1 m, either way).
 constexpr double max_slope = 0.01;
 /// A layer's share of a tile, and its points there, at least.
@@ -125,7 +123,7 @@ std::vector<Mode> find_modes(std::span<Sample> tile) {
         std::accumulate(tile.begin(), tile.end(), 0.0,
                         [](double sum, const Sample& sample) { return sum + sample.noise; }) /
         static_cast<double>(tile.size());
-    const double deviation = std::max(noise, roughness);
+    const double deviation = std::max(noise, surface_roughness);
     std::vector<double> peaks;
     std::vector<double> valleys;
     HeightDensity(tile, deviation).find_peaks(peaks, valleys);

@@ -11,6 +11,9 @@
 
 namespace roomscribe {
 
+/// m: plaster, wood and paint are rough by so much. What is measured more finely is no relief.
+inline constexpr double surface_roughness = 0.001;
+
 /// A point near the plane: its number and the standard deviation, m, of its measurement.
 struct ReliefPoint {
     std::uint32_t point;
