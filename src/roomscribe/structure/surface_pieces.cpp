@@ -111,16 +111,17 @@ struct LayerVoxel {
 
 class LayerSplitter {
   public:
-    LayerSplitter(const ScanMap& map, const SurfaceSample& sample,
+    LayerSplitter(const ScanMap& map, const SurfaceSample& sample, const NeighborGraph& graph,
                   const PlaneGrowingSettings& settings)
         : map_(map),
           sample_(sample),
+          graph_(graph),
           settings_(settings),
           tile_size_(std::max(min_tile_size, 6.0 * sample.spacing)) {}
 
     /// The connected pieces of every layer near a grown patch. The points come voxel by voxel.
-    std::vector<Surface> split(const PlanarPatch& grown, std::span<const std::uint32_t> points,
-                               const Context& context) const {
+    std::vector<Surface> split(const PlanarPatch& grown,
+                               std::span<const std::uint32_t> points) const {
         std::vector<ReliefPoint> relief;
         relief.reserve(points.size());
         for (const std::uint32_t point : points)
@@ -134,7 +135,7 @@ class LayerSplitter {
         }
         std::vector<Surface> surfaces;
         for (const auto& of_layer : points_of)
-            add_pieces(of_layer, grown, surfaces, context);
+            add_pieces(of_layer, grown, surfaces);
         return surfaces;
     }
 
@@ -155,28 +156,31 @@ class LayerSplitter {
     }
 
     void add_pieces(std::span<const std::uint32_t> points, const PlanarPatch& grown,
-                    std::vector<Surface>& surfaces, const Context& context) const {
+                    std::vector<Surface>& surfaces) const {
         if (points.size() < static_cast<std::size_t>(settings_.min_points)) return;
         const std::vector<LayerVoxel> voxels = gather_voxels(points);
         if (voxels.size() < min_voxels) return;
-        std::vector<Eigen::Vector3f> middles;
-        middles.reserve(voxels.size());
-        for (const LayerVoxel& voxel : voxels)
-            middles.push_back(voxel.middle);
-        const NeighborGraph graph(middles, SearchTree(middles), settings_.num_neighbors, context);
+        const auto place_of = [&voxels](std::uint32_t voxel) {
+            return std::lower_bound(
+                voxels.begin(), voxels.end(), voxel,
+                [](const LayerVoxel& known, std::uint32_t number) { return known.voxel < number; });
+        };
         std::vector<bool> is_visited(voxels.size(), false);
         for (std::uint32_t seed = 0; seed < voxels.size(); ++seed) {
             if (is_visited[seed]) continue;
             std::vector<std::uint32_t> piece{seed};
             is_visited[seed] = true;
             for (std::size_t head = 0; head < piece.size(); ++head) {
-                for (const std::uint32_t next : graph.neighbors(piece[head])) {
-                    if (is_visited[next]) continue;
-                    is_visited[next] = true;
-                    piece.push_back(next);
+                for (const std::uint32_t voxel : graph_.neighbors(voxels[piece[head]].voxel)) {
+                    const auto next = place_of(voxel);
+                    if (next == voxels.end() || next->voxel != voxel) continue;
+                    const auto number = static_cast<std::uint32_t>(next - voxels.begin());
+                    if (is_visited[number]) continue;
+                    is_visited[number] = true;
+                    piece.push_back(number);
                 }
             }
-            add_piece(voxels, piece, points, middles, grown, surfaces);
+            add_piece(voxels, piece, points, grown, surfaces);
         }
     }
 
@@ -215,12 +219,12 @@ class LayerSplitter {
     }
 
     void add_piece(std::span<const LayerVoxel> voxels, std::span<const std::uint32_t> piece,
-                   std::span<const std::uint32_t> points, std::span<const Eigen::Vector3f> middles,
-                   const PlanarPatch& grown, std::vector<Surface>& surfaces) const {
+                   std::span<const std::uint32_t> points, const PlanarPatch& grown,
+                   std::vector<Surface>& surfaces) const {
         if (piece.size() < min_voxels) return;
         Surface surface;
         for (const std::uint32_t i : piece) {
-            surface.middles.push_back(middles[i]);
+            surface.middles.push_back(voxels[i].middle);
             const auto first = points.begin() + voxels[i].first;
             surface.map_points.insert(surface.map_points.end(), first, first + voxels[i].count);
         }
@@ -235,6 +239,7 @@ class LayerSplitter {
 
     const ScanMap& map_;
     const SurfaceSample& sample_;
+    const NeighborGraph& graph_;
     const PlaneGrowingSettings& settings_;
     double tile_size_;
 };
@@ -269,13 +274,11 @@ std::vector<Surface> split_into_surfaces(const ScanMap& map, const SurfaceSample
     const std::vector<std::vector<std::uint32_t>> points =
         share_out(map, sample, grown, PatchCandidates(grown, graph),
                   settings.distance_tolerance + relief_reach, context);
-    const LayerSplitter splitter(map, sample, settings);
+    const LayerSplitter splitter(map, sample, graph, settings);
     std::vector<std::vector<Surface>> pieces(grown.size());
-    Context alone = context;
-    alone.num_threads = 1;
     parallel_for(context, grown.size(), 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i)
-            pieces[i] = splitter.split(grown[i], points[i], alone);
+            pieces[i] = splitter.split(grown[i], points[i]);
     });
     std::vector<Surface> surfaces;
     for (auto& of_patch : pieces) {
