@@ -61,7 +61,7 @@ std::vector<Surface> find_surfaces(const ScanMap& map, const SurfaceSample& samp
     std::erase_if(grown, [&](const PlanarPatch& patch) { return is_narrow(sample, patch.points); });
     std::vector<Surface> surfaces =
         split_into_surfaces(map, sample, grown, graph, settings, context);
-    merge_touching(map, sample, graph, settings.cell_size, surfaces);
+    merge_touching(map, sample, graph, settings, surfaces);
     return surfaces;
 }
 
@@ -169,7 +169,7 @@ PlanarSurfaces find_planar_surfaces(const ScanMap& map, const SurfaceSample& sam
     const NeighborGraph graph = graph_of(sample, settings, context);
     std::vector<Surface> surfaces = find_surfaces(map, sample, graph, settings, context);
     add_narrow_surfaces(map, sample, settings, surfaces, context);
-    merge_touching(map, sample, graph, settings.cell_size, surfaces);
+    merge_touching(map, sample, graph, settings, surfaces);
     std::stable_sort(surfaces.begin(), surfaces.end(), [](const Surface& a, const Surface& b) {
         return a.patch.area > b.patch.area;
     });

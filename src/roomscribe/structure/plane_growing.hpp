@@ -14,7 +14,7 @@ namespace roomscribe {
 
 struct PlaneGrowingSettings {
     double distance_tolerance = 0.03;
-    double normal_tolerance = radians(15.0);
+    double normal_tolerance = radians(22.5);
     int num_neighbors = 12;
     int min_points = 30;
     double min_area = 0.05;
@@ -33,7 +33,7 @@ struct PlaneGrowingSettings {
              .min = 0.0,
              .max = 1.5707963267948966,
              .doc =
-                 "Largest angle between a point's normal and its plane's. A third of 45 degrees, "
+                 "Largest angle between a point's normal and its plane's. Half of 45 degrees, "
                  "the least angle at which surfaces of a building commonly meet."});
         visitor(num_neighbors, {.name = "num_neighbors",
                                 .unit = "",

@@ -6,7 +6,9 @@
 #include <map>
 #include <numeric>
 #include <utility>
+#include <vector>
 
+#include "roomscribe/core/quantile.hpp"
 #include "roomscribe/core/units.hpp"
 
 namespace roomscribe {
@@ -14,9 +16,46 @@ namespace {
 
 /// Where two surfaces touch.
 struct Contact {
-    std::uint32_t count = 0;
+    /// How far apart in height neighbouring voxels of the two lie, across the first one's plane.
+    std::vector<float> steps;
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+
+    Eigen::Vector3d middle() const { return sum / static_cast<double>(steps.size()); }
 };
+
+/// Whether one plane holds nearly all voxels of both.
+bool are_in_one_plane(const Surface& a, const Surface& b, double tolerance) {
+    constexpr double share_on_plane = 0.9;
+    std::vector<Eigen::Vector3f> middles = a.middles;
+    middles.insert(middles.end(), b.middles.begin(), b.middles.end());
+    const auto fit = fit_plane(middles);
+    if (!fit) return false;
+    const auto holds = [&](const Surface& part) {
+        const auto on_plane = std::count_if(
+            part.middles.begin(), part.middles.end(), [&](const Eigen::Vector3f& middle) {
+                return std::abs(fit->plane.signed_distance(middle.cast<double>())) <= tolerance;
+            });
+        return static_cast<double>(on_plane) >=
+               share_on_plane * static_cast<double>(part.middles.size());
+    };
+    return holds(a) && holds(b);
+}
+
+/// Whether the planes agree where the surfaces touch, or the surfaces go over into each other
+/// without a step, as those of a floor that bends do.
+bool are_one_surface(const Surface& a, const Surface& b, Contact& contact, double noise,
+                     double tolerance) {
+    const Plane& plane = a.patch.plane;
+    const Plane& other = b.patch.plane;
+    const double cosine = plane.normal.dot(other.normal);
+    const Eigen::Vector3d middle = contact.middle();
+    if (cosine >= std::cos(radians(2.0)) &&
+        std::abs(plane.signed_distance(middle) - other.signed_distance(middle)) <= noise) {
+        return true;
+    }
+    return cosine >= std::cos(radians(5.0)) &&
+           static_cast<double>(median(contact.steps)) <= noise && are_in_one_plane(a, b, tolerance);
+}
 
 }  // namespace
 
@@ -41,18 +80,20 @@ std::vector<std::uint32_t> owners_of_voxels(const SurfaceSample& sample,
 }
 
 void merge_touching(const ScanMap& map, const SurfaceSample& sample, const NeighborGraph& graph,
-                    double cell_size, std::vector<Surface>& surfaces) {
-    constexpr std::uint32_t min_contacts = 4;
-    const double min_cosine = std::cos(radians(2.0));
+                    const PlaneGrowingSettings& settings, std::vector<Surface>& surfaces) {
+    constexpr std::size_t min_contacts = 4;
+    const double noise = std::max(sample.noise, surface_roughness);
     const std::vector<std::uint32_t> owner = owners_of_voxels(sample, surfaces);
     std::map<std::pair<std::uint32_t, std::uint32_t>, Contact> contacts;
     for (std::uint32_t i = 0; i < owner.size(); ++i) {
         if (owner[i] == no_surface) continue;
+        const Eigen::Vector3f normal = surfaces[owner[i]].patch.plane.normal.cast<float>();
         for (const std::uint32_t j : graph.neighbors(i)) {
             if (owner[j] == no_surface || owner[i] >= owner[j]) continue;
             Contact& contact = contacts[{owner[i], owner[j]}];
-            ++contact.count;
-            contact.sum += sample.cloud.positions[i].cast<double>();
+            const Eigen::Vector3f& here = sample.cloud.positions[i];
+            contact.steps.push_back(std::abs(normal.dot(sample.cloud.positions[j] - here)));
+            contact.sum += here.cast<double>();
         }
     }
     std::vector<std::uint32_t> root(surfaces.size());
@@ -62,26 +103,23 @@ void merge_touching(const ScanMap& map, const SurfaceSample& sample, const Neigh
             s = root[s];
         return s;
     };
-    for (const auto& [pair, contact] : contacts) {
+    for (auto& [pair, contact] : contacts) {
         const std::uint32_t a = find(pair.first);
         const std::uint32_t b = find(pair.second);
-        const Plane& plane = surfaces[a].patch.plane;
-        const Plane& other = surfaces[b].patch.plane;
-        if (a == b || contact.count < min_contacts || plane.normal.dot(other.normal) < min_cosine) {
-            continue;
-        }
-        const Eigen::Vector3d middle = contact.sum / contact.count;
-        const double step = std::abs(plane.signed_distance(middle) - other.signed_distance(middle));
-        if (step > std::max(sample.noise, surface_roughness)) continue;
-        const auto [kept, gone] = std::minmax(a, b);
+        const std::uint32_t kept = std::min(a, b);
+        const std::uint32_t gone = std::max(a, b);
         Surface& whole = surfaces[kept];
         Surface& part = surfaces[gone];
+        if (kept == gone || contact.steps.size() < min_contacts ||
+            !are_one_surface(whole, part, contact, noise, settings.distance_tolerance)) {
+            continue;
+        }
         root[gone] = kept;
         whole.map_points.insert(whole.map_points.end(), part.map_points.begin(),
                                 part.map_points.end());
         whole.middles.insert(whole.middles.end(), part.middles.begin(), part.middles.end());
         part = {};
-        fit_surface(map, Eigen::Vector3d(whole.patch.plane.normal), cell_size, whole);
+        fit_surface(map, Eigen::Vector3d(whole.patch.plane.normal), settings.cell_size, whole);
     }
     std::erase_if(surfaces, [](const Surface& surface) { return surface.map_points.empty(); });
 }

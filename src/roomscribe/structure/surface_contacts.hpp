@@ -19,9 +19,12 @@ inline constexpr std::uint32_t no_surface = 0xFFFFFFFFU;
 std::vector<std::uint32_t> owners_of_voxels(const SurfaceSample& sample,
                                             std::span<const Surface> surfaces);
 
-/// Makes one of surfaces that touch in one plane: growing may cut a surface in two, which the
-/// layers then bring into one plane again. `graph` is of the sample.
+/// Makes one of surfaces that touch without a step: growing and the tiles of relief may cut a
+/// surface in two, one that is out of true most of all. They are one where their planes agree where
+/// they touch (2 degrees, the noise), or where neighbouring voxels of both lie within the noise of
+/// each other, the planes part by 5 degrees at most, and one plane holds nearly all of both.
+/// `graph` is of the sample.
 void merge_touching(const ScanMap& map, const SurfaceSample& sample, const NeighborGraph& graph,
-                    double cell_size, std::vector<Surface>& surfaces);
+                    const PlaneGrowingSettings& settings, std::vector<Surface>& surfaces);
 
 }  // namespace roomscribe

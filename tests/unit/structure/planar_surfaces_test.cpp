@@ -58,7 +58,8 @@ TEST(FindPlanarSurfaces, FindsTheLeafOfADoorApartFromItsWall) {
         const PlanarPatch& leaf = surfaces.patches[3];
         EXPECT_NEAR(std::abs(leaf.plane.normal.dot(y)), 1.0, 1e-4);
         EXPECT_NEAR(leaf.plane.signed_distance(Vector3d(1.5, 3.98, 1.0)), 0.0, 0.002);
-        EXPECT_NEAR(leaf.area, 1.8, 0.25);
+        // Squares of 8 cm along a rim of 5.8 m count too much by 0.23 on average.
+        EXPECT_NEAR(leaf.area, 1.8 + 0.23, 0.15);
         std::size_t wrong = 0;
         for (std::size_t i = 0; i < map.cloud.size(); ++i) {
             const Vector3d point = map.cloud.positions[i].cast<double>();
