@@ -7,7 +7,9 @@
 #include <numeric>
 #include <utility>
 
+#include "roomscribe/core/error.hpp"
 #include "roomscribe/core/parallel.hpp"
+#include "roomscribe/geometry/point_cloud.hpp"
 
 namespace roomscribe {
 namespace {
@@ -106,6 +108,10 @@ std::vector<std::uint32_t> find_boundary_points(std::span<const Eigen::Vector3f>
                                                 const BoundaryPointsSettings& settings,
                                                 const Context& context) {
     check_settings(settings);
+    if (!std::all_of(points.begin(), points.end(),
+                     [&](std::uint32_t point) { return is_finite(positions[point]); })) {
+        throw InvalidArgument("points", "one that is not finite", "finite points only");
+    }
     if (points.empty()) return {};
     const PlaneAxes axes = plane_axes(plane.normal);
     const Eigen::Vector3d origin = positions[points.front()].cast<double>();

@@ -33,9 +33,9 @@ struct BoundaryPointsSettings {
 
 /// Boundary points of a plane as the paper finds them (section 4.3, Algorithm 3, step 2), by PCL's
 /// angle criterion: seen from a boundary point, its neighbours, projected to the plane, leave a
-/// sector wider than `max_angle` free. Rims of holes count as the outer rim does. As in PCL,
-/// a point without two neighbours is not on the boundary. `points` number `positions` and must be
-/// finite; the result is a part of them in their order.
+/// sector wider than `max_angle` free. Rims of holes count as the outer rim does. As in PCL, a
+/// point without two neighbours is not on the boundary. `points` number `positions`; the result is
+/// a part of them in their order. Throws InvalidArgument if one is not finite.
 std::vector<std::uint32_t> find_boundary_points(std::span<const Eigen::Vector3f> positions,
                                                 std::span<const std::uint32_t> points,
                                                 const Plane& plane,

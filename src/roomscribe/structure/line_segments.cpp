@@ -13,6 +13,9 @@ namespace {
 
 using Eigen::Vector3d;
 
+/// Draws in a row without a line large enough, after which there is none.
+constexpr int max_failures = 10;
+
 struct Line {
     Vector3d point = Vector3d::Zero();
     Vector3d direction = Vector3d::UnitX();
@@ -121,18 +124,20 @@ LineSegmentsResult fit_line_segments(std::span<const Eigen::Vector3f> positions,
     std::vector<std::uint32_t> left(boundary.begin(), boundary.end());
     std::sort(left.begin(), left.end());
     const auto min_inliers = static_cast<std::size_t>(settings.min_inliers);
-    while (left.size() >= min_inliers) {  // steps 3 and 12
+    int num_failures = 0;
+    for (std::uint64_t draw = 0; left.size() >= min_inliers; ++draw) {  // steps 3 and 12
         context.throw_if_cancelled();
         const LineProblem problem{positions, left, settings.distance_tolerance};
-        const auto line = sample_consensus(problem, seed + result.lines.size(),
-                                           settings.consensus);  // step 4
+        const auto line = sample_consensus(problem, seed + draw, settings.consensus);  // step 4
         std::vector<std::uint32_t> cluster;
         if (line.model)
             cluster = largest_cluster(problem, *line.model, settings.cluster_gap);  // steps 5, 6
         if (cluster.size() < min_inliers) {                                         // step 7
+            if (++num_failures < max_failures) continue;
             result.stop = LineSegmentsStop::small_cluster;
             break;
         }
+        num_failures = 0;
         std::vector<std::uint32_t> rest;
         std::set_difference(left.begin(), left.end(), cluster.begin(), cluster.end(),
                             std::back_inserter(rest));                  // step 10

@@ -47,7 +47,7 @@ struct LineSegmentsSettings {
 
 enum class LineSegmentsStop : std::uint8_t {
     few_points_left,  ///< points left < min_inliers
-    small_cluster     ///< the largest cluster of the best line's inliers < min_inliers
+    small_cluster     ///< largest clusters of ten lines in a row < min_inliers
 };
 
 struct LineSegmentsResult {
@@ -58,8 +58,9 @@ struct LineSegmentsResult {
 
 /// Lines of one plane's boundary points, the paper's Algorithm 3, steps 3 to 12: a line by RANSAC,
 /// its inliers clustered along it, the largest cluster alone kept and taken out, until fewer than
-/// `min_inliers` points are left. Where the largest cluster is too small the pseudo-code would try
-/// for ever; it stops here. `boundary` numbers `positions`, which must be finite there.
+/// `min_inliers` points are left. Where the largest cluster is too small the pseudo-code draws
+/// another line, for ever if need be; ten in a row end it here. `boundary` numbers `positions`,
+/// which must be finite there.
 LineSegmentsResult fit_line_segments(std::span<const Eigen::Vector3f> positions,
                                      std::span<const std::uint32_t> boundary, std::uint64_t seed,
                                      const LineSegmentsSettings& settings = {},

@@ -32,9 +32,8 @@ struct PlaneGrowingSettings {
              .unit = "rad",
              .min = 0.0,
              .max = 1.5707963267948966,
-             .doc =
-                 "Largest angle between a point's normal and its plane's. Half of 45 degrees, "
-                 "the least angle at which surfaces of a building commonly meet."});
+             .doc = "Largest angle between a point's normal and its plane's. Half of 45 degrees, "
+                    "the least angle at which surfaces of a building commonly meet."});
         visitor(num_neighbors, {.name = "num_neighbors",
                                 .unit = "",
                                 .min = 3,

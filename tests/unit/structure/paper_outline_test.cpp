@@ -103,6 +103,9 @@ TEST(FindBoundaryPoints, OfNoneOrOneThereAreNone) {
     EXPECT_TRUE(find_boundary_points({}, {}, level).empty());
     const std::vector<Eigen::Vector3f> one{Eigen::Vector3f::Zero()};
     EXPECT_EQ(find_boundary_points(one, std::vector<std::uint32_t>{0}, level).size(), 0U);
+    const std::vector<Eigen::Vector3f> nowhere{Eigen::Vector3f::Constant(NAN)};
+    EXPECT_THROW(find_boundary_points(nowhere, std::vector<std::uint32_t>{0}, level),
+                 InvalidArgument);
     EXPECT_THROW(find_boundary_points(one, std::vector<std::uint32_t>{0}, level, {.radius = 0.0}),
                  InvalidArgument);
 }
