@@ -6,6 +6,8 @@
 #include <numeric>
 #include <utility>
 
+#include <Eigen/Geometry>
+
 namespace roomscribe {
 namespace {
 
@@ -23,12 +25,14 @@ class Chain {
                     const QuadrilateralSettings& settings) {
         const LineSegment turned{line.end, line.start};
         for (const LineSegment& candidate : {line, turned}) {
-            if (fits(segments_.back(), candidate, settings)) {
+            if (fits(segments_.back(), candidate, settings) &&
+                turns_alike(segments_.back(), candidate)) {
                 segments_.push_back(candidate);
                 lines_.push_back(number);
                 return true;
             }
-            if (fits(candidate, segments_.front(), settings)) {
+            if (fits(candidate, segments_.front(), settings) &&
+                turns_alike(candidate, segments_.front())) {
                 segments_.insert(segments_.begin(), candidate);
                 lines_.push_back(number);
                 return true;
@@ -62,6 +66,13 @@ class Chain {
         return (after.start - before.end).norm() <= settings.end_distance &&
                std::abs(before.direction().dot(after.direction())) <=
                    std::sin(settings.angle_tolerance);
+    }
+
+    /// A rectangle turns the same way at each corner; a staircase or a step in space does not.
+    bool turns_alike(const LineSegment& before, const LineSegment& after) const {
+        if (segments_.size() < 2) return true;
+        const Vector3d turn = segments_[0].direction().cross(segments_[1].direction());
+        return turn.dot(before.direction().cross(after.direction())) > 0.9;
     }
 
     /// Middle of where two lines come nearest. They are about perpendicular.

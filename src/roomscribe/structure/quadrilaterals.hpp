@@ -41,7 +41,9 @@ struct QuadrilateralSettings {
 
 /// The paper's Algorithm 4, step by step: starting with the first segment that is left, segments
 /// are added to a shape whose ends they are near to (a) and at a right angle to the segment there
-/// (b), up to four; shapes of more than two are kept. Corners are where neighbouring segments come
+/// (b), up to four; shapes of more than two are kept. What (a) and (b)
+/// as printed let through, though it is no rectangle, a staircase or a step in space, is refused:
+/// the shape turns the same way at each corner. Corners are where neighbouring segments come
 /// nearest to each other; of three segments the longer arm says where the fourth side is, since
 /// what hides an arm makes it shorter. Every segment serves once at most, whether or not its shape
 /// was kept.

@@ -224,6 +224,17 @@ TEST(AssembleQuadrilaterals, RejectsAnLASlantAndDistantEnds) {
     EXPECT_THROW(assemble_quadrilaterals(two, {.end_distance = -1.0}), InvalidArgument);
 }
 
+TEST(AssembleQuadrilaterals, RejectsAStaircaseAndAStepInSpace) {
+    const std::vector<LineSegment> staircase{{{0, 0, 0}, {1, 0, 0}},
+                                             {{1, 0, 0}, {1, 0, 1}},
+                                             {{1, 0, 1}, {2, 0, 1}},
+                                             {{2, 0, 1}, {2, 0, 2}}};
+    EXPECT_TRUE(assemble_quadrilaterals(staircase).empty());
+    const std::vector<LineSegment> step{
+        {{0, 0, 0}, {1, 0, 0}}, {{1, 0, 0}, {1, 1, 0}}, {{1, 1, 0}, {1, 1, 1}}};
+    EXPECT_TRUE(assemble_quadrilaterals(step).empty());
+}
+
 TEST(AssembleQuadrilaterals, TellsTwoDoorsApart) {
     std::vector<LineSegment> lines = door(0.0);
     for (LineSegment line : door(0.0)) {
