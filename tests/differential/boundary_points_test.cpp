@@ -38,7 +38,9 @@ TEST(BoundaryPointsAgainstPcl, VerdictsAgree) {
         PointCloud cloud;
         cloud.positions = input.positions;
         const auto planes = detect_planes_ransac(
-            cloud, 1, {.distance_tolerance = 0.02, .min_inliers = 100, .max_planes = 1});
+            cloud, 1,
+            {.detection = {.distance_tolerance = 0.02, .min_inliers = 100, .max_planes = 1},
+             .consensus = {}});
         ASSERT_EQ(planes.planes.size(), 1U);
         const PlanarPatch& patch = planes.planes[0];
         // PCL looks for neighbours in space; on the plane itself that is the same.

@@ -32,9 +32,11 @@ TEST(PlaneRansacAgainstPcl, LargestPlaneHoldsNoFewerPoints) {
         double num_points = 0.0;
         constexpr int num_seeds = 5;
         for (std::uint64_t seed = 0; seed < num_seeds; ++seed) {
-            const auto result = detect_planes_ransac(
-                cloud, seed,
-                {.distance_tolerance = tolerance, .min_inliers = 100, .max_planes = 1});
+            const auto result = detect_planes_ransac(cloud, seed,
+                                                     {.detection = {.distance_tolerance = tolerance,
+                                                                    .min_inliers = 100,
+                                                                    .max_planes = 1},
+                                                      .consensus = {}});
             ASSERT_EQ(result.planes.size(), 1U);
             num_points += static_cast<double>(result.planes[0].points.size()) / num_seeds;
         }

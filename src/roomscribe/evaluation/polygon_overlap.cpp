@@ -15,10 +15,6 @@ namespace {
 using Corners = std::vector<Eigen::Vector2d>;
 using Triangle = std::array<Eigen::Vector2d, 3>;
 
-double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
-    return a.x() * b.y() - a.y() * b.x();
-}
-
 /// What of a convex polygon lies to the left of the line from `start` to `end`.
 Corners clip(const Corners& polygon, const Eigen::Vector2d& start, const Eigen::Vector2d& end) {
     const auto side = [&](const Eigen::Vector2d& point) {

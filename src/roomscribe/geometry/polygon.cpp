@@ -6,9 +6,9 @@
 namespace roomscribe {
 namespace {
 
-double cross(const Eigen::Vector2d& origin, const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
-    return (a.x() - origin.x()) * (b.y() - origin.y()) -
-           (a.y() - origin.y()) * (b.x() - origin.x());
+/// Twice the area of the triangle, positive when its corners run counter-clockwise.
+double turn(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c) {
+    return cross(b - a, c - a);
 }
 
 }  // namespace
@@ -26,7 +26,7 @@ std::vector<Eigen::Vector2d> convex_hull(std::span<const Eigen::Vector2d> points
         const std::size_t start = hull.size();
         for (auto point = begin; point != end; ++point) {
             while (hull.size() >= start + 2 &&
-                   cross(hull[hull.size() - 2], hull.back(), *point) <= 0.0) {
+                   turn(hull[hull.size() - 2], hull.back(), *point) <= 0.0) {
                 hull.pop_back();
             }
             hull.push_back(*point);

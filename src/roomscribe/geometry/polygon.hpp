@@ -8,6 +8,11 @@
 
 namespace roomscribe {
 
+/// The z of the cross product: positive when `b` lies to the left of `a`.
+inline double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+    return a.x() * b.y() - a.y() * b.x();
+}
+
 /// Convex hull, counter-clockwise, without collinear corners (Andrew's monotone chain). Fewer than
 /// 3 corners if the points are fewer or on one line.
 std::vector<Eigen::Vector2d> convex_hull(std::span<const Eigen::Vector2d> points);

@@ -20,10 +20,6 @@ Cell cell_of(const Vector2& point, double size) {
             static_cast<std::int64_t>(std::floor(point.y() / size))};
 }
 
-double cross(const Vector2& a, const Vector2& b) {
-    return a.x() * b.y() - a.y() * b.x();
-}
-
 double side(const Vector2& a, const Vector2& b, const Vector2& point) {
     return cross(b - a, point - a);
 }

@@ -16,21 +16,15 @@ std::uint64_t seed_of(const PipelineSettings& settings) {
 
 std::vector<PlanarPatch> find_planes(const ScanMap& map, const SurfaceSample& sample,
                                      const PipelineSettings& settings, const Context& context) {
+    const PlaneDetectionSettings detection{.distance_tolerance = sample.tolerance,
+                                           .min_inliers = settings.structure.min_plane_inliers};
     if (settings.structure.plane_method == PlaneMethod::ransac) {
         return detect_planes_ransac(sample.cloud, seed_of(settings),
-                                    {.distance_tolerance = sample.tolerance,
-                                     .min_inliers = settings.structure.min_plane_inliers,
-                                     .consensus = {}},
-                                    context)
+                                    {.detection = detection, .consensus = {}}, context)
             .planes;
     }
-    if (settings.structure.plane_method == PlaneMethod::hough) {
-        return detect_planes_hough(sample.cloud,
-                                   {.distance_tolerance = sample.tolerance,
-                                    .min_inliers = settings.structure.min_plane_inliers},
-                                   context)
-            .planes;
-    }
+    if (settings.structure.plane_method == PlaneMethod::hough)
+        return detect_planes_hough(sample.cloud, {.detection = detection}, context).planes;
     return find_planar_surfaces(
                map, sample,
                {.distance_tolerance = sample.tolerance, .cell_size = 2.0 * sample.spacing}, context)
@@ -42,8 +36,8 @@ PrincipalAxes find_axes(const ScanMap& map, const SurfaceSample& sample,
                         const Context& context) {
     if (settings.structure.axes_method == AxesMethod::algorithm_2) {
         PaperAxesSettings paper;
-        paper.planes.distance_tolerance = sample.tolerance;
-        paper.planes.min_inliers = settings.structure.min_plane_inliers;
+        paper.planes.detection.distance_tolerance = sample.tolerance;
+        paper.planes.detection.min_inliers = settings.structure.min_plane_inliers;
         return estimate_principal_axes_paper(map.cloud, seed_of(settings), paper, context);
     }
     return estimate_principal_axes(patches, settings.structure.axes, context);

@@ -10,6 +10,7 @@
 
 #include "roomscribe/core/error.hpp"
 #include "roomscribe/geometry/plane.hpp"
+#include "roomscribe/geometry/polygon.hpp"
 
 namespace roomscribe {
 namespace {
@@ -26,10 +27,6 @@ void add_triangle(SimulatedWorld& world, std::uint32_t part, std::uint32_t a, st
                   std::uint32_t c) {
     world.triangles.push_back({a, b, c});
     world.part_of_triangle.push_back(part);
-}
-
-double cross(const Vector2d& a, const Vector2d& b) {
-    return a.x() * b.y() - a.y() * b.x();
 }
 
 /// Twice the vector area: along the normal of a polygon whose corners run counter-clockwise.

@@ -8,14 +8,12 @@
 
 #include <Eigen/Eigenvalues>
 
+#include "roomscribe/geometry/polygon.hpp"
+
 namespace roomscribe {
 namespace {
 
 using Eigen::Vector2d;
-
-double cross(const Vector2d& a, const Vector2d& b) {
-    return a.x() * b.y() - a.y() * b.x();
-}
 
 /// A run of rim points, by position in a loop that is repeated once.
 struct Stretch {

@@ -205,21 +205,10 @@ class RectangleFinder {
                 whole.y_high = ceiling->position;
                 consider(whole, candidates);
             }
-            // The arms end where they are hidden, or at the missing side: the longer one knows
-            // better.
-            Candidate open = base;
-            open.sides[bottom] = floor;
-            open.y_low = floor->position;
-            open.y_high = std::max(last(a), last(b));
-            consider(open, candidates);
+            consider_open(base, a, b, bottom, *floor, candidates);
         }
-        for (const Side* ceiling : tops) {
-            Candidate open = base;
-            open.sides[top] = ceiling;
-            open.y_high = ceiling->position;
-            open.y_low = std::min(a.stretches.front().low, b.stretches.front().low);
-            consider(open, candidates);
-        }
+        for (const Side* ceiling : tops)
+            consider_open(base, a, b, top, *ceiling, candidates);
     }
 
     /// Bottom and top are given: with a left or a right side alone.
@@ -229,20 +218,26 @@ class RectangleFinder {
         base.sides[top] = &b;
         base.y_low = a.position;
         base.y_high = b.position;
-        for (const Side& side : sides_[left]) {
-            Candidate open = base;
-            open.sides[left] = &side;
-            open.x_low = side.position;
-            open.x_high = std::max(last(a), last(b));
-            consider(open, candidates);
+        for (const std::size_t name : {left, right}) {
+            for (const Side& side : sides_[name])
+                consider_open(base, a, b, name, side, candidates);
         }
-        for (const Side& side : sides_[right]) {
-            Candidate open = base;
-            open.sides[right] = &side;
-            open.x_high = side.position;
-            open.x_low = std::min(a.stretches.front().low, b.stretches.front().low);
-            consider(open, candidates);
-        }
+    }
+
+    /// Arms `a` and `b` and one side across them. The arms end where they are hidden, or at the
+    /// missing side: the longer one knows better.
+    void consider_open(Candidate candidate, const Side& a, const Side& b, std::size_t name,
+                       const Side& side, std::vector<Candidate>& candidates) const {
+        const bool is_low = name == left || name == bottom;
+        const double end = is_low ? std::max(last(a), last(b))
+                                  : std::min(a.stretches.front().low, b.stretches.front().low);
+        const auto [low, high] =
+            is_low ? Interval{side.position, end} : Interval{end, side.position};
+        candidate.sides[name] = &side;
+        const bool is_upright = name == left || name == right;
+        (is_upright ? candidate.x_low : candidate.y_low) = low;
+        (is_upright ? candidate.x_high : candidate.y_high) = high;
+        consider(candidate, candidates);
     }
 
     static double last(const Side& side) {

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <numeric>
 #include <optional>
 #include <utility>
 
+#include "roomscribe/core/disjoint_sets.hpp"
 #include "roomscribe/core/error.hpp"
 #include "roomscribe/core/parallel.hpp"
 #include "roomscribe/structure/neighbor_graph.hpp"
@@ -191,24 +191,18 @@ void Grower::merge_touching() {
     std::stable_sort(pairs.begin(), pairs.end(),
                      [](const auto& a, const auto& b) { return a.first > b.first; });
 
-    std::vector<std::uint32_t> root(regions_.size());
-    std::iota(root.begin(), root.end(), 0U);
-    const auto find = [&](std::uint32_t region) {
-        while (root[region] != region)
-            region = root[region];
-        return region;
-    };
+    DisjointSets sets(regions_.size());
     for (const auto& [count, pair] : pairs) {
-        const std::uint32_t a = find(pair.first);
-        const std::uint32_t b = find(pair.second);
+        const std::uint32_t a = sets.find(pair.first);
+        const std::uint32_t b = sets.find(pair.second);
         Region joined;
         if (a == b || !are_one_surface(regions_[a], regions_[b], joined)) continue;
-        root[b] = a;
+        sets.join(a, b);
         regions_[a] = std::move(joined);
         regions_[b].points.clear();
     }
     for (std::uint32_t& owner : owner_) {
-        if (owner != nobody) owner = find(owner);
+        if (owner != nobody) owner = sets.find(owner);
     }
 }
 

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <limits>
 #include <numbers>
 #include <optional>
@@ -70,7 +69,7 @@ class Accumulator {
             reach = std::max(reach, (voter.position - middle_).norm());
         // Neighbouring directions part by half a step times the reach; finer offsets tell no more.
         bin_size_ =
-            static_cast<float>(std::max(2.0 * settings.distance_tolerance,
+            static_cast<float>(std::max(2.0 * settings.detection.distance_tolerance,
                                         0.25 * settings.angle_step * static_cast<double>(reach)));
         reach_ = reach + bin_size_;
         num_bins_ = static_cast<std::size_t>(2.0F * reach_ / bin_size_) + 2;
@@ -188,22 +187,15 @@ Candidate refine(const PointCloud& cloud, std::span<const std::uint32_t> points,
 
 }  // namespace
 
-PlaneHoughResult detect_planes_hough(const PointCloud& cloud, const PlaneHoughSettings& settings,
-                                     const Context& context) {
+PlaneDetectionResult detect_planes_hough(const PointCloud& cloud,
+                                         const PlaneHoughSettings& settings,
+                                         const Context& context) {
     check_settings(settings);
-    PlaneHoughResult result;
-    std::vector<std::uint32_t> left = finite_points(cloud);
-    const auto min_inliers = static_cast<std::size_t>(settings.min_inliers);
-    const double tolerance = settings.distance_tolerance;
+    const double tolerance = settings.detection.distance_tolerance;
     std::optional<Accumulator> accumulator;
-    if (left.size() >= min_inliers)
-        accumulator.emplace(choose_voters(cloud, tolerance, context), settings, context);
-    while (left.size() >= min_inliers) {
-        context.throw_if_cancelled();
-        if (result.planes.size() == static_cast<std::size_t>(settings.max_planes)) {
-            result.stop = PlaneHoughStop::max_planes;
-            break;
-        }
+    const auto find_plane = [&](std::span<const std::uint32_t> left) {
+        if (!accumulator)
+            accumulator.emplace(choose_voters(cloud, tolerance, context), settings, context);
         Candidate best;
         for (const Plane& plane : accumulator->best_cells()) {
             const Candidate candidate =
@@ -211,23 +203,10 @@ PlaneHoughResult detect_planes_hough(const PointCloud& cloud, const PlaneHoughSe
                        context);
             if (candidate.num_inliers > best.num_inliers) best = candidate;
         }
-        if (best.num_inliers < min_inliers) {
-            result.stop = PlaneHoughStop::few_inliers_left;
-            break;
-        }
-        std::vector<std::uint32_t> inliers;
-        std::vector<std::uint32_t> rest;
-        std::partition_copy(left.begin(), left.end(), std::back_inserter(inliers),
-                            std::back_inserter(rest), [&](std::uint32_t point) {
-                                return std::abs(best.plane.signed_distance(
-                                           cloud.positions[point].cast<double>())) <= tolerance;
-                            });
         accumulator->take_out(best.plane, tolerance);
-        result.planes.push_back(make_planar_patch(cloud, best.plane, std::move(inliers)));
-        left = std::move(rest);
-    }
-    result.remaining_points = std::move(left);
-    return result;
+        return best.num_inliers > 0 ? std::optional(best.plane) : std::nullopt;
+    };
+    return take_out_planes(cloud, find_plane, settings.detection, context);
 }
 
 }  // namespace roomscribe

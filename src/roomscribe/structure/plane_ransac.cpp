@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "roomscribe/structure/plane_ransac.hpp"
 
-#include <algorithm>
 #include <cmath>
-#include <utility>
+#include <optional>
+#include <span>
 
 #include "roomscribe/core/parallel.hpp"
 
@@ -54,49 +54,21 @@ struct PlaneProblem {
             },
             [](double a, double b) { return a + b; });
     }
-
-    std::vector<std::uint32_t> inliers(const Plane& plane) const {
-        std::vector<std::uint32_t> result;
-        for (const std::uint32_t point : points) {
-            if (is_inlier(plane, point)) result.push_back(point);
-        }
-        return result;
-    }
 };
 
 }  // namespace
 
-PlaneRansacResult detect_planes_ransac(const PointCloud& cloud, std::uint64_t seed,
-                                       const PlaneRansacSettings& settings,
-                                       const Context& context) {
+PlaneDetectionResult detect_planes_ransac(const PointCloud& cloud, std::uint64_t seed,
+                                          const PlaneRansacSettings& settings,
+                                          const Context& context) {
     check_settings(settings);
-    PlaneRansacResult result;
-    std::vector<std::uint32_t> left = finite_points(cloud);
-    const auto min_inliers = static_cast<std::size_t>(settings.min_inliers);
-    result.stop = PlaneRansacStop::few_points_left;
-    while (left.size() >= min_inliers) {
-        if (result.planes.size() == static_cast<std::size_t>(settings.max_planes)) {
-            result.stop = PlaneRansacStop::max_planes;
-            break;
-        }
-        const PlaneProblem problem{cloud.positions, left, settings.distance_tolerance, context};
-        const auto found =
-            sample_consensus(problem, seed + result.planes.size(), settings.consensus);
-        std::vector<std::uint32_t> inliers;
-        if (found.model) inliers = problem.inliers(*found.model);
-        if (inliers.size() < min_inliers) {
-            result.stop = PlaneRansacStop::few_inliers_left;
-            break;
-        }
-        std::vector<std::uint32_t> rest;
-        rest.reserve(left.size() - inliers.size());
-        std::set_difference(left.begin(), left.end(), inliers.begin(), inliers.end(),
-                            std::back_inserter(rest));
-        result.planes.push_back(make_planar_patch(cloud, *found.model, std::move(inliers)));
-        left = std::move(rest);
-    }
-    result.remaining_points = std::move(left);
-    return result;
+    std::uint64_t draw = seed;
+    const auto find_plane = [&](std::span<const std::uint32_t> left) {
+        const PlaneProblem problem{cloud.positions, left, settings.detection.distance_tolerance,
+                                   context};
+        return sample_consensus(problem, draw++, settings.consensus).model;
+    };
+    return take_out_planes(cloud, find_plane, settings.detection, context);
 }
 
 }  // namespace roomscribe

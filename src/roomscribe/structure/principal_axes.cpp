@@ -197,7 +197,7 @@ PrincipalAxes estimate_principal_axes_paper(const PointCloud& cloud, std::uint64
     const double max_dot = std::sin(settings.angle_tolerance);
     // Steps 2-4, 26 and 31: fit a plane, take out its inliers, again until too few are left. All
     // planes are fitted first; those behind the third axis are looked at no more (steps 28-30).
-    const PlaneRansacResult found = detect_planes_ransac(cloud, seed, settings.planes, context);
+    const PlaneDetectionResult found = detect_planes_ransac(cloud, seed, settings.planes, context);
 
     std::optional<Eigen::Vector3d> plane1;
     std::optional<Eigen::Vector3d> plane2;

@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
 #include <utility>
 #include <vector>
 
+#include "roomscribe/core/disjoint_sets.hpp"
 #include "roomscribe/core/quantile.hpp"
 #include "roomscribe/core/units.hpp"
 
@@ -96,16 +96,10 @@ void merge_touching(const ScanMap& map, const SurfaceSample& sample, const Neigh
             contact.sum += here.cast<double>();
         }
     }
-    std::vector<std::uint32_t> root(surfaces.size());
-    std::iota(root.begin(), root.end(), 0U);
-    const auto find = [&](std::uint32_t s) {
-        while (root[s] != s)
-            s = root[s];
-        return s;
-    };
+    DisjointSets sets(surfaces.size());
     for (auto& [pair, contact] : contacts) {
-        const std::uint32_t a = find(pair.first);
-        const std::uint32_t b = find(pair.second);
+        const std::uint32_t a = sets.find(pair.first);
+        const std::uint32_t b = sets.find(pair.second);
         const std::uint32_t kept = std::min(a, b);
         const std::uint32_t gone = std::max(a, b);
         Surface& whole = surfaces[kept];
@@ -114,7 +108,7 @@ void merge_touching(const ScanMap& map, const SurfaceSample& sample, const Neigh
             !are_one_surface(whole, part, contact, noise, settings.distance_tolerance)) {
             continue;
         }
-        root[gone] = kept;
+        sets.join(kept, gone);
         whole.map_points.insert(whole.map_points.end(), part.map_points.begin(),
                                 part.map_points.end());
         whole.middles.insert(whole.middles.end(), part.middles.begin(), part.middles.end());

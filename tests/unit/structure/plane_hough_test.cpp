@@ -53,8 +53,8 @@ TEST(DetectPlanesHough, FindsTheSixFacesOfABoxInAnyPose) {
         for (const double noise : {0.0, 0.005}) {
             SCOPED_TRACE(angle);
             const Transform pose = some_pose(angle);
-            const PlaneHoughResult result =
-                detect_planes_hough(box(pose, noise, 2000), {.min_inliers = 1000});
+            const PlaneDetectionResult result =
+                detect_planes_hough(box(pose, noise, 2000), {.detection = {.min_inliers = 1000}});
             ASSERT_EQ(result.planes.size(), 6U);
             for (const PlanarPatch& patch : result.planes) {
                 const Vector3d normal = pose.linear().transpose() * patch.plane.normal;
@@ -66,12 +66,13 @@ TEST(DetectPlanesHough, FindsTheSixFacesOfABoxInAnyPose) {
 
 TEST(DetectPlanesHough, FindsNoFewerInliersThanTheBestOfTenDraws) {
     const PointCloud cloud = box(some_pose(0.4), 0.008, 20'000);
-    const auto hough = detect_planes_hough(cloud, {.min_inliers = 1000, .max_planes = 1});
+    const auto hough =
+        detect_planes_hough(cloud, {.detection = {.min_inliers = 1000, .max_planes = 1}});
     ASSERT_EQ(hough.planes.size(), 1U);
     std::size_t most = 0;
     for (std::uint64_t seed = 0; seed < 10; ++seed) {
         const auto drawn = detect_planes_ransac(
-            cloud, seed, {.min_inliers = 1000, .max_planes = 1, .consensus = {}});
+            cloud, seed, {.detection = {.min_inliers = 1000, .max_planes = 1}, .consensus = {}});
         most = std::max(most, drawn.planes.at(0).points.size());
     }
     EXPECT_GE(static_cast<double>(hough.planes[0].points.size()), 0.99 * static_cast<double>(most));
@@ -79,11 +80,13 @@ TEST(DetectPlanesHough, FindsNoFewerInliersThanTheBestOfTenDraws) {
 
 TEST(DetectPlanesHough, DoesNotDependOnThreadsOrOrder) {
     const PointCloud cloud = box(some_pose(1.0), 0.005, 3000);
-    const auto one = detect_planes_hough(cloud, {.min_inliers = 1000}, test::with_threads(1));
-    const auto many = detect_planes_hough(cloud, {.min_inliers = 1000}, test::with_threads(3));
+    const auto one =
+        detect_planes_hough(cloud, {.detection = {.min_inliers = 1000}}, test::with_threads(1));
+    const auto many =
+        detect_planes_hough(cloud, {.detection = {.min_inliers = 1000}}, test::with_threads(3));
     PointCloud reversed = cloud;
     std::reverse(reversed.positions.begin(), reversed.positions.end());
-    const auto turned = detect_planes_hough(reversed, {.min_inliers = 1000});
+    const auto turned = detect_planes_hough(reversed, {.detection = {.min_inliers = 1000}});
     ASSERT_EQ(one.planes.size(), many.planes.size());
     ASSERT_EQ(one.planes.size(), turned.planes.size());
     for (std::size_t i = 0; i < one.planes.size(); ++i) {
@@ -96,21 +99,23 @@ TEST(DetectPlanesHough, DoesNotDependOnThreadsOrOrder) {
 }
 
 TEST(DetectPlanesHough, SaysWhyItStops) {
-    EXPECT_EQ(detect_planes_hough({}).stop, PlaneHoughStop::few_points_left);
+    EXPECT_EQ(detect_planes_hough({}).stop, PlaneDetectionStop::few_points_left);
     PointCloud line;
     for (int i = 0; i < 100; ++i)
         line.positions.emplace_back(0.01F * static_cast<float>(i), 0.0F, 0.0F);
     line.positions[3].x() = std::numeric_limits<float>::quiet_NaN();
     const auto of_line =
-        detect_planes_hough(line, {.distance_tolerance = 1e-4, .min_inliers = 120});
-    EXPECT_EQ(of_line.stop, PlaneHoughStop::few_points_left);
+        detect_planes_hough(line, {.detection = {.distance_tolerance = 1e-4, .min_inliers = 120}});
+    EXPECT_EQ(of_line.stop, PlaneDetectionStop::few_points_left);
     EXPECT_EQ(of_line.remaining_points.size(), 99U);
     const PointCloud cloud = box(some_pose(0.0), 0.005, 100);
-    EXPECT_EQ(detect_planes_hough(cloud, {.min_inliers = 1000, .max_planes = 2}).stop,
-              PlaneHoughStop::max_planes);
-    EXPECT_EQ(detect_planes_hough(cloud, {.min_inliers = 12'000}).stop,
-              PlaneHoughStop::few_inliers_left);
-    EXPECT_THROW(detect_planes_hough(cloud, {.distance_tolerance = 0.0}), InvalidArgument);
+    EXPECT_EQ(
+        detect_planes_hough(cloud, {.detection = {.min_inliers = 1000, .max_planes = 2}}).stop,
+        PlaneDetectionStop::max_planes);
+    EXPECT_EQ(detect_planes_hough(cloud, {.detection = {.min_inliers = 12'000}}).stop,
+              PlaneDetectionStop::few_inliers_left);
+    EXPECT_THROW(detect_planes_hough(cloud, {.detection = {.distance_tolerance = 0.0}}),
+                 InvalidArgument);
 }
 
 }  // namespace

@@ -53,9 +53,9 @@ const Eigen::Matrix3d turned =
 TEST(DetectPlanesRansac, TakesOutTheSixFacesOfABox) {
     PointCloud cloud = box_cloud(40'000, turned, 0.005);
     cloud.positions[5].x() = std::numeric_limits<float>::quiet_NaN();
-    const PlaneRansacResult result = detect_planes_ransac(cloud, 1);
+    const PlaneDetectionResult result = detect_planes_ransac(cloud, 1);
     ASSERT_EQ(result.planes.size(), 6U);
-    EXPECT_EQ(result.stop, PlaneRansacStop::few_points_left);
+    EXPECT_EQ(result.stop, PlaneDetectionStop::few_points_left);
     std::size_t covered = result.remaining_points.size();
     for (const PlanarPatch& plane : result.planes) {
         covered += plane.points.size();
@@ -77,11 +77,11 @@ TEST(DetectPlanesRansac, StopsWhenTheBestPlaneIsTooSmall) {
                                      static_cast<float>(random.uniform()),
                                      static_cast<float>(random.uniform()));
     }
-    const PlaneRansacResult result = detect_planes_ransac(cloud, 1);
+    const PlaneDetectionResult result = detect_planes_ransac(cloud, 1);
     EXPECT_TRUE(result.planes.empty());
-    EXPECT_EQ(result.stop, PlaneRansacStop::few_inliers_left);
+    EXPECT_EQ(result.stop, PlaneDetectionStop::few_inliers_left);
     EXPECT_EQ(result.remaining_points.size(), 5000U);
-    EXPECT_EQ(detect_planes_ransac({}, 1).stop, PlaneRansacStop::few_points_left);
+    EXPECT_EQ(detect_planes_ransac({}, 1).stop, PlaneDetectionStop::few_points_left);
 }
 
 TEST(EstimatePrincipalAxesPaper, FindsTheAxesOfABoxInAnyPose) {

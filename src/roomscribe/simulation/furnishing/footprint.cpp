@@ -8,15 +8,12 @@
 #include <span>
 
 #include "roomscribe/core/units.hpp"
+#include "roomscribe/geometry/polygon.hpp"
 
 namespace roomscribe {
 namespace {
 
 using Eigen::Vector2d;
-
-double cross(const Vector2d& a, const Vector2d& b) {
-    return a.x() * b.y() - a.y() * b.x();
-}
 
 std::array<Vector2d, 4> corners_of(const Footprint& f) {
     return {f.corner(-1, -1), f.corner(1, -1), f.corner(1, 1), f.corner(-1, 1)};

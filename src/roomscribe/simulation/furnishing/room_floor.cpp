@@ -26,10 +26,6 @@ constexpr double entry_distance = 0.5;
 constexpr double head_height = 2.0;
 constexpr double step_height = 0.05;
 
-double cross(const Vector2d& a, const Vector2d& b) {
-    return a.x() * b.y() - a.y() * b.x();
-}
-
 /// The space before an item.
 Footprint space_before(const ItemPlan& item, double space) {
     Eigen::AlignedBox3d extent;
