@@ -71,15 +71,14 @@ class Labeller {
              const RoomSurfaces& surfaces, const PointLabelSettings& settings)
         : sample_(sample), patches_(patches), surfaces_(surfaces.surfaces) {
         patch_of_voxel_.assign(sample.cloud.size(), no_patch);
-        surface_of_patch_.assign(patches.size(), -1);
+        surface_of_voxel_.assign(sample.cloud.size(), -1);
         for (std::size_t s = 0; s < surfaces_.size(); ++s) {
             const double rms = surfaces_[s].component.evidence.rms.value_or(0.0);
             const double tolerance = settings.distance_tolerance.value_or(
                 std::max(sample.tolerance, max_deviations * rms));
             tests_.push_back(make_test(surfaces_[s], tolerance, sample.spacing));
-            for (const std::uint32_t patch : surfaces_[s].patches) {
-                surface_of_patch_[patch] = static_cast<std::int32_t>(s);
-            }
+            for (const std::uint32_t voxel : surfaces_[s].voxels)
+                surface_of_voxel_[voxel] = static_cast<std::int32_t>(s);
         }
         for (std::uint32_t patch = 0; patch < patches.size(); ++patch) {
             for (const std::uint32_t voxel : patches[patch].points)
@@ -106,7 +105,7 @@ class Labeller {
         std::pair<std::int32_t, float> best{-1, 1.0F};
         // Its own patch first: then most other surfaces are out of the question.
         const std::uint32_t patch = patch_of_voxel_[voxel];
-        const std::int32_t own = patch == no_patch ? -1 : surface_of_patch_[patch];
+        const std::int32_t own = patch == no_patch ? -1 : surface_of_voxel_[voxel];
         if (own >= 0) {
             const Plane& plane = patches_[patch].plane;
             const auto deviation = static_cast<float>(
@@ -129,7 +128,7 @@ class Labeller {
     std::span<const RoomSurface> surfaces_;
     std::vector<SurfaceTest> tests_;
     std::vector<std::uint32_t> patch_of_voxel_;
-    std::vector<std::int32_t> surface_of_patch_;
+    std::vector<std::int32_t> surface_of_voxel_;
 };
 
 /// The candidates of every voxel, one list after another.

@@ -4,15 +4,20 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <optional>
+#include <string>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "roomscribe/geometry/polygon.hpp"
+#include "roomscribe/interpretation/axis_profile.hpp"
+#include "roomscribe/interpretation/floor_plan.hpp"
 #include "roomscribe/interpretation/level_surfaces.hpp"
 #include "roomscribe/interpretation/outline.hpp"
-#include "roomscribe/interpretation/storey_extent.hpp"
-#include "roomscribe/interpretation/wall_surfaces.hpp"
+#include "roomscribe/interpretation/upright_surfaces.hpp"
+#include "roomscribe/interpretation/wall_faces.hpp"
 
 namespace roomscribe {
 namespace {
@@ -25,87 +30,127 @@ constexpr double max_furniture_depth = 1.0;
 /// Deviation of an outline, about the spacing of the sample.
 constexpr double outline_tolerance = 0.05;
 
+/// Level surface of one room, or of a storey without rooms.
+struct LevelPiece {
+    double height = 0.0;  ///< m along up, of the level with most of the surface
+    std::size_t most = 0;
+    std::vector<std::uint32_t> voxels;
+};
+
 class SurfaceBuilder {
   public:
     SurfaceBuilder(const SurfaceSample& sample, std::span<const PlanarPatch> patches,
                    const Upright& upright)
         : sample_(sample),
           patches_(patches),
-          x_(upright.room_from_map.row(0).transpose()),
-          y_(upright.room_from_map.row(1).transpose()),
+          room_from_map_(upright.room_from_map),
           up_(upright.up()) {}
 
-    void add_level(const Level& level, Label label, const Storey& storey);
-    void add_sloping_ceiling(std::uint32_t patch, const Storey& storey);
-    void add_wall(const UprightSurface& surface, const WallJudgement& judgement,
-                  std::span<const UprightSurface> others, const Storey& storey);
-    std::vector<RoomSurface> take() && { return std::move(surfaces_); }
+    void add_storey(const Storey& storey, const FloorPlan& plan, std::span<const WallFace> faces);
+    std::vector<RoomSurface> take_surfaces() && { return std::move(surfaces_); }
+    std::vector<Room> take_rooms() && { return std::move(rooms_); }
 
   private:
-    RoomSurface start(Label label, std::span<const std::uint32_t> patches);
-    bool looks_outwards(const UprightSurface& surface,
-                        std::span<const UprightSurface> others) const;
+    using Outline = std::vector<Eigen::Vector2d>;
+
+    RoomSurface start(Label label, const std::string& parent, std::vector<std::uint32_t> voxels);
+    std::map<std::int32_t, LevelPiece> pieces_by_room(std::span<const Level> levels,
+                                                      const FloorPlan& plan) const;
+    void add_level(const LevelPiece& piece, Label label, const Storey& storey,
+                   const std::string& parent, const Outline& outline);
+    void add_sloping_ceiling(std::uint32_t patch, const Storey& storey);
+    void add_wall(const WallFace& face, const Storey& storey, const std::string& parent,
+                  std::optional<double> ceiling);
 
     const SurfaceSample& sample_;
     std::span<const PlanarPatch> patches_;
-    Eigen::Vector3d x_;
-    Eigen::Vector3d y_;
+    Eigen::Matrix3d room_from_map_;
     Eigen::Vector3d up_;
     std::array<int, num_labels> counts_{};
     std::int32_t next_instance_ = 0;
     std::vector<RoomSurface> surfaces_;
+    std::vector<Room> rooms_;
 };
 
-RoomSurface SurfaceBuilder::start(Label label, std::span<const std::uint32_t> patches) {
+RoomSurface SurfaceBuilder::start(Label label, const std::string& parent,
+                                  std::vector<std::uint32_t> voxels) {
     RoomSurface surface;
     Component& component = surface.component;
     component.label = label;
     component.id =
         fmt::format("{}-{}", label_name(label), ++counts_[static_cast<std::size_t>(label)]);
     component.instance = next_instance_++;
-    surface.patches.assign(patches.begin(), patches.end());
-    for (const std::uint32_t patch : patches)
-        component.evidence.points += patches_[patch].points.size();
+    component.parent = parent;
+    component.evidence.points = voxels.size();
+    surface.voxels = std::move(voxels);
     return surface;
 }
 
-void SurfaceBuilder::add_level(const Level& level, Label label, const Storey& storey) {
-    RoomSurface surface = start(label, level.patches);
-    PlaneMoments moments;
-    std::vector<Eigen::Vector2d> corners;
-    for (const std::uint32_t patch : level.patches) {
-        for (const std::uint32_t point : patches_[patch].points) {
-            const Eigen::Vector3d position = sample_.cloud.positions[point].cast<double>();
-            moments.add(position);
-            corners.emplace_back(position.dot(x_), position.dot(y_));
+/// Voxels of the levels by the room that they lie in. All are in no room where there is none.
+std::map<std::int32_t, LevelPiece> SurfaceBuilder::pieces_by_room(std::span<const Level> levels,
+                                                                  const FloorPlan& plan) const {
+    std::map<std::int32_t, LevelPiece> pieces;
+    for (const Level& level : levels) {
+        std::map<std::int32_t, std::vector<std::uint32_t>> by_room;
+        for (const std::uint32_t patch : level.patches) {
+            for (const std::uint32_t voxel : patches_[patch].points) {
+                const Eigen::Vector3d place =
+                    room_from_map_ * sample_.cloud.positions[voxel].cast<double>();
+                const std::int32_t room = plan.room_at(place.head<2>());
+                if (room != no_room || plan.rooms.empty()) by_room[room].push_back(voxel);
+            }
         }
+        for (const auto& [room, voxels] : by_room) {
+            LevelPiece& piece = pieces[room];
+            if (voxels.size() > piece.most) {
+                piece.most = voxels.size();
+                piece.height = level.height;
+            }
+            piece.voxels.insert(piece.voxels.end(), voxels.begin(), voxels.end());
+        }
+    }
+    return pieces;
+}
+
+void SurfaceBuilder::add_level(const LevelPiece& piece, Label label, const Storey& storey,
+                               const std::string& parent, const Outline& known_outline) {
+    RoomSurface surface = start(label, parent, piece.voxels);
+    PlaneMoments moments;
+    Outline corners;
+    for (const std::uint32_t voxel : piece.voxels) {
+        const Eigen::Vector3d position = sample_.cloud.positions[voxel].cast<double>();
+        corners.emplace_back((room_from_map_ * position).head<2>());
+        if (std::abs(position.dot(up_) - piece.height) <= sample_.tolerance) moments.add(position);
     }
     const double sign = label == Label::floor ? 1.0 : -1.0;
     const auto fit = moments.fit();
-    surface.plane = {sign * up_, sign * level.height};
-    if (fit) {
+    surface.plane = {sign * up_, sign * piece.height};
+    if (fit && std::abs(fit->plane.normal.dot(up_)) >= std::cos(level_angle)) {
         surface.plane = fit->plane.normal.dot(sign * up_) < 0.0 ? fit->plane.flipped() : fit->plane;
     }
-
+    const Outline outline = known_outline.empty()
+                                ? concave_outline(corners, max_furniture_depth, outline_tolerance)
+                                : known_outline;
     Component& component = surface.component;
-    const std::vector<Eigen::Vector2d> outline =
-        concave_outline(corners, max_furniture_depth, outline_tolerance);
     for (const Eigen::Vector2d& corner : outline) {
         // Straight up or down onto the plane.
-        const Eigen::Vector3d level_corner = corner.x() * x_ + corner.y() * y_;
+        const Eigen::Vector3d level_corner =
+            room_from_map_.transpose() * Eigen::Vector3d(corner.x(), corner.y(), 0.0);
         const double height =
             -surface.plane.signed_distance(level_corner) / surface.plane.normal.dot(up_);
         component.polygon.emplace_back(level_corner + height * up_);
     }
+    const double area =
+        sample_.spacing * sample_.spacing * static_cast<double>(piece.voxels.size());
     component.evidence.rms = fit ? fit->rms : 0.0;
-    component.evidence.coverage = std::min(1.0, level.area / std::max(signed_area(outline), 1e-12));
+    component.evidence.coverage = std::min(1.0, area / std::max(signed_area(outline), 1e-12));
     const bool is_paired = storey.floor && !storey.ceilings.empty();
     component.confidence = is_paired ? 0.95 : 0.75;
     component.verdict = Verdict::accepted;
     component.evidence.rule = label == Label::floor
                                   ? "lowest large level surface that looks up"
                                   : "large level surface at least a room's height above the floor";
-    if (label == Label::floor && !is_paired && level.area < max_table_area) {
+    if (label == Label::floor && !is_paired && area < max_table_area) {
         component.verdict = Verdict::doubtful;
         component.confidence = 0.5;
         component.evidence.alternative = "table top";
@@ -117,82 +162,121 @@ void SurfaceBuilder::add_level(const Level& level, Label label, const Storey& st
 }
 
 void SurfaceBuilder::add_sloping_ceiling(std::uint32_t patch, const Storey& storey) {
-    Level level;
-    level.height = patches_[patch].centroid.dot(up_);
-    level.area = patches_[patch].area;
-    level.patches = {patch};
-    add_level(level, Label::ceiling, storey);
-    Component& component = surfaces_.back().component;
-    component.evidence.rule =
+    const PlanarPatch& slope = patches_[patch];
+    add_level({slope.centroid.dot(up_), slope.points.size(), slope.points}, Label::ceiling, storey,
+              "", {});
+    RoomSurface& surface = surfaces_.back();
+    surface.plane = slope.plane.normal.dot(up_) > 0.0 ? slope.plane.flipped() : slope.plane;
+    surface.component.evidence.rule =
         "sloping surface at least a room's height above the floor, "
         "nothing above it";
-    component.evidence.alternative = "underside of something that leans";
-    component.confidence = 0.6;
-    component.verdict = Verdict::doubtful;
+    surface.component.evidence.alternative = "underside of something that leans";
+    surface.component.confidence = 0.6;
+    surface.component.verdict = Verdict::doubtful;
 }
 
-/// Whether the room lies behind the plane. A face with its other face close behind looks away from
-/// it; else the room is where most of the surface lies.
-bool SurfaceBuilder::looks_outwards(const UprightSurface& surface,
-                                    std::span<const UprightSurface> others) const {
-    constexpr double max_wall_thickness = 0.5;
-    constexpr double nearby = 3.0;
-    for (const UprightSurface& other : others) {
-        if (&other == &surface || std::abs(other.plane.normal.dot(surface.plane.normal)) < 0.98)
-            continue;
-        const Eigen::Vector3d middle =
-            0.5 * (other.start + other.end) * other.along + other.plane.offset * other.plane.normal;
-        const double along = middle.dot(surface.along);
-        const double distance = surface.plane.signed_distance(middle);
-        if (along < surface.start || along > surface.end) continue;
-        if (std::abs(distance) > 2.0 * sample_.tolerance &&
-            std::abs(distance) < max_wall_thickness && other.area > 0.25 * surface.area) {
-            return distance > 0.0;
-        }
-    }
-    std::ptrdiff_t in_front = 0;
-    for (const Eigen::Vector3f& position : sample_.cloud.positions) {
-        const Eigen::Vector3d point = position.cast<double>();
-        const double distance = surface.plane.signed_distance(point);
-        if (std::abs(distance) < 2.0 * sample_.tolerance || std::abs(distance) > nearby) continue;
-        const double along = point.dot(surface.along);
-        if (along < surface.start || along > surface.end) continue;
-        in_front += distance > 0.0 ? 1 : -1;
-    }
-    return in_front < 0;
-}
-
-void SurfaceBuilder::add_wall(const UprightSurface& wall, const WallJudgement& judgement,
-                              std::span<const UprightSurface> others, const Storey& storey) {
-    RoomSurface surface = start(Label::wall, wall.patches);
-    const bool flip = !sample_.normals_face_scanner && looks_outwards(wall, others);
-    surface.plane = flip ? wall.plane.flipped() : wall.plane;
-    const double bottom = storey.floor ? storey.floor->height : wall.bottom;
-    double top = wall.top;
-    if (judgement.reaches_ceiling) {
-        // Of several ceilings, the one that the wall ends at.
-        double nearest = std::numeric_limits<double>::infinity();
-        for (const Level& ceiling : storey.ceilings) {
-            if (std::abs(ceiling.height - wall.top) >= nearest) continue;
-            nearest = std::abs(ceiling.height - wall.top);
-            top = ceiling.height;
-        }
-    }
-    const Eigen::Vector3d on_plane = wall.plane.offset * wall.plane.normal;
+void SurfaceBuilder::add_wall(const WallFace& face, const Storey& storey, const std::string& parent,
+                              std::optional<double> ceiling) {
+    constexpr double floor_reach = 0.3;  // skirtings, cables and boxes hide a wall's foot
+    constexpr double ceiling_reach = 0.35;
+    RoomSurface surface = start(Label::wall, parent, face.voxels);
+    surface.plane = face.plane;
+    const double bottom = storey.floor ? storey.floor->height : face.bottom;
+    const double top = ceiling.value_or(face.top);
+    const Eigen::Vector3d on_plane = face.plane.offset * face.plane.normal;
     Component& component = surface.component;
-    const double first = flip ? wall.end : wall.start;
-    const double last = flip ? wall.start : wall.end;
-    component.polygon = {
-        on_plane + first * wall.along + bottom * up_, on_plane + last * wall.along + bottom * up_,
-        on_plane + last * wall.along + top * up_, on_plane + first * wall.along + top * up_};
-    component.confidence = judgement.confidence;
-    component.verdict = judgement.alternative.empty() ? Verdict::accepted : Verdict::doubtful;
-    component.evidence.rule = judgement.rule;
-    component.evidence.alternative = judgement.alternative;
-    component.evidence.rms = wall.rms;
+    component.polygon = {on_plane + face.start * face.along + bottom * up_,
+                         on_plane + face.end * face.along + bottom * up_,
+                         on_plane + face.end * face.along + top * up_,
+                         on_plane + face.start * face.along + top * up_};
+    const bool reaches_floor = storey.floor && face.bottom <= storey.floor->height + floor_reach;
+    const bool reaches_ceiling = ceiling && face.top >= *ceiling - ceiling_reach;
+    component.confidence = 0.7 + (reaches_floor ? 0.1 : 0.0) + (reaches_ceiling ? 0.17 : 0.0);
+    component.verdict = Verdict::accepted;
+    component.evidence.rule = reaches_ceiling
+                                  ? "upright surface that closes the room and reaches the ceiling"
+                                  : "upright surface that closes the room";
+    if (!reaches_ceiling && !reaches_floor) {
+        component.verdict = Verdict::doubtful;
+        component.evidence.alternative = "front or side of a tall piece of furniture";
+    }
+    component.evidence.rms = face.rms;
     component.evidence.coverage =
-        std::min(1.0, wall.area / std::max(wall.width() * (top - bottom), 1e-12));
+        std::min(1.0, face.area / std::max(face.width() * (top - bottom), 1e-12));
     surfaces_.push_back(std::move(surface));
+}
+
+void SurfaceBuilder::add_storey(const Storey& storey, const FloorPlan& plan,
+                                std::span<const WallFace> faces) {
+    std::vector<Level> floors = storey.other_floors;
+    if (storey.floor) floors.push_back(*storey.floor);
+    auto floor_pieces = pieces_by_room(floors, plan);
+    auto ceiling_pieces = pieces_by_room(storey.ceilings, plan);
+    const auto add_pieces = [&](std::int32_t room, const std::string& id, const Outline& outline) {
+        if (floor_pieces.contains(room))
+            add_level(floor_pieces[room], Label::floor, storey, id, outline);
+        if (ceiling_pieces.contains(room))
+            add_level(ceiling_pieces[room], Label::ceiling, storey, id, outline);
+    };
+    if (plan.rooms.empty()) add_pieces(no_room, "", {});
+    for (std::size_t i = 0; i < plan.rooms.size(); ++i) {
+        const auto number = static_cast<std::int32_t>(i);
+        const PlanRoom& seen = plan.rooms[i];
+        const Outline outline =
+            outline_between_walls(trace_room(plan, number), faces, number, room_from_map_);
+        Room room;
+        room.id = fmt::format("room-{}", rooms_.size() + 1);
+        add_pieces(number, room.id, outline);
+        for (const WallFace& face : faces) {
+            if (face.room != number) continue;
+            add_wall(face, storey, room.id, seen.ceiling_height);
+            room.walls.push_back(surfaces_.back().component.id);
+        }
+        const double highest =
+            seen.ceiling_height.value_or(seen.floor_height);  // no ceiling seen: no height known
+        room.floor_height = seen.floor_height;
+        room.ceiling_height = highest;
+        room.area = signed_area(outline);
+        room.volume = room.area * (highest - seen.floor_height);
+        for (const Eigen::Vector2d& corner : outline) {
+            room.polygon.emplace_back(room_from_map_.transpose() *
+                                      Eigen::Vector3d(corner.x(), corner.y(), seen.floor_height));
+        }
+        rooms_.push_back(std::move(room));
+    }
+    if (plan.rooms.empty()) {
+        for (const WallFace& face : faces)
+            add_wall(face, storey, "", storey.ceiling_height());
+    }
+    for (const std::uint32_t patch : storey.sloping_ceilings)
+        add_sloping_ceiling(patch, storey);
+}
+
+/// Whether next to nothing was seen above a patch, as is so of ceilings under a roof, but not of
+/// the underside of stairs and shelves.
+bool is_topmost(const SurfaceSample& sample, const PlanarPatch& patch, const Eigen::Vector3d& up) {
+    constexpr double clearance = 0.15;
+    constexpr double max_share_above = 0.1;
+    const PlaneAxes axes = plane_axes(up);
+    Eigen::Array2d low = Eigen::Array2d::Constant(std::numeric_limits<double>::infinity());
+    Eigen::Array2d high = -low;
+    const auto place_of = [&](const Eigen::Vector3d& position) {
+        return Eigen::Array2d(position.dot(axes.u), position.dot(axes.v));
+    };
+    for (const std::uint32_t point : patch.points) {
+        const Eigen::Array2d place = place_of(sample.cloud.positions[point].cast<double>());
+        low = low.min(place);
+        high = high.max(place);
+    }
+    const double sign = patch.plane.normal.dot(up) > 0.0 ? 1.0 : -1.0;
+    std::size_t above = 0;
+    for (const Eigen::Vector3f& point : sample.cloud.positions) {
+        const Eigen::Vector3d position = point.cast<double>();
+        if (sign * patch.plane.signed_distance(position) < clearance) continue;
+        const Eigen::Array2d place = place_of(position);
+        if ((place >= low).all() && (place <= high).all()) ++above;
+    }
+    return static_cast<double>(above) <= max_share_above * static_cast<double>(patch.points.size());
 }
 
 /// What is said of floors and walls is no surer than which way is up.
@@ -236,48 +320,41 @@ Transform place_room(const SurfaceSample& sample, std::span<const PlanarPatch> p
 
 }  // namespace
 
-RoomSurfaces find_room_surfaces(const SurfaceSample& sample, std::span<const PlanarPatch> patches,
-                                const Upright& upright, const RoomSurfacesSettings& settings,
-                                const Context& context) {
+RoomSurfaces find_room_surfaces(const ScanMap& map, const SurfaceSample& sample,
+                                std::span<const PlanarPatch> patches, const Upright& upright,
+                                const RoomSurfacesSettings& settings, const Context& context) {
     check_settings(settings);
     RoomSurfaces result;
     const Eigen::Vector3d up = upright.up();
-    const StoreyExtent extent(sample, patches, upright.room_from_map.row(0).transpose(),
-                              upright.room_from_map.row(1).transpose(), settings.max_gap);
     std::vector<Storey> storeys = find_storeys(patches, up, upright.facing_is_known, settings);
     for (Storey& storey : storeys) {
-        storey = extent.without_outside(storey);
+        std::erase_if(storey.sloping_ceilings,
+                      [&](std::uint32_t patch) { return !is_topmost(sample, patches[patch], up); });
     }
     SurfaceBuilder builder(sample, patches, upright);
-    for (const Storey& storey : storeys) {
-        if (storey.floor) builder.add_level(*storey.floor, Label::floor, storey);
-        for (const Level& floor : storey.other_floors)
-            builder.add_level(floor, Label::floor, storey);
-    }
-    for (const Storey& storey : storeys) {
-        for (const Level& ceiling : storey.ceilings)
-            builder.add_level(ceiling, Label::ceiling, storey);
-        for (const std::uint32_t patch : storey.sloping_ceilings)
-            builder.add_sloping_ceiling(patch, storey);
-    }
     constexpr double infinity = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < storeys.size(); ++i) {
         context.throw_if_cancelled();
         const double from = i == 0 ? -infinity : storeys[i].floor->height;
         const double to = i + 1 == storeys.size() ? infinity : storeys[i + 1].floor->height;
         const auto surfaces = find_upright_surfaces(sample, patches, up, from, to, settings);
-        const StoreyExtent::Points footprint = extent.footprint(storeys[i]);
-        for (const UprightSurface& surface : surfaces) {
-            const WallJudgement judgement = judge_wall(surface, surfaces, storeys[i], settings);
-            if (judgement.is_wall && extent.is_beside(surface, footprint))
-                builder.add_wall(surface, judgement, surfaces, storeys[i]);
-        }
+        const FloorPlan plan = draw_floor_plan(map, sample, patches, upright.room_from_map,
+                                               storeys[i], surfaces, context);
+        const std::vector<WallFace> faces =
+            find_wall_faces(sample, patches, surfaces, plan, upright.room_from_map, settings);
+        builder.add_storey(storeys[i], plan, faces);
     }
-    result.surfaces = std::move(builder).take();
+    result.rooms = std::move(builder).take_rooms();
+    result.surfaces = std::move(builder).take_surfaces();
     if (upright.stop == UprightStop::ambiguous) doubt_all(result.surfaces);
     const auto& floor = storeys.front().floor;
     result.room_from_map = place_room(sample, patches, result.surfaces, upright,
                                       floor ? std::optional(floor->height) : std::nullopt);
+    for (Room& room : result.rooms) {
+        const double ground = -result.room_from_map.translation().z();
+        room.floor_height -= ground;
+        room.ceiling_height -= ground;
+    }
     return result;
 }
 

@@ -9,17 +9,18 @@
 #include "roomscribe/core/settings.hpp"
 #include "roomscribe/geometry/transform.hpp"
 #include "roomscribe/interpretation/upright.hpp"
+#include "roomscribe/model/scan.hpp"
 #include "roomscribe/model/scene.hpp"
 #include "roomscribe/structure/planar_patch.hpp"
 #include "roomscribe/structure/surface_sample.hpp"
 
 namespace roomscribe {
 
-/// A floor, ceiling or wall, and the patches that it was made of.
+/// A floor, ceiling or wall, and the voxels of the surface sample that it was made of.
 struct RoomSurface {
     Component component;
     Plane plane;  ///< in the map frame; the normal looks into the room
-    std::vector<std::uint32_t> patches;
+    std::vector<std::uint32_t> voxels;
 };
 
 struct RoomSurfaces {
@@ -27,6 +28,7 @@ struct RoomSurfaces {
     /// was seen), x and y along the walls, the surfaces' bounding box starting at x = y = 0.
     Transform room_from_map = Transform::Identity();
     std::vector<RoomSurface> surfaces;  ///< floors, ceilings, walls
+    std::vector<Room> rooms;
 };
 
 struct RoomSurfacesSettings {
@@ -83,22 +85,22 @@ struct RoomSurfacesSettings {
     }
 };
 
-/// Floors, ceilings and walls by the paper's pass-through along z (section 4.3) and beyond it.
+/// Rooms with their floors, ceilings and walls, by the paper's pass-through along z (section 4.3)
+/// and beyond it.
 ///
 /// Floor: the lowest large level surface that looks up, with all that lies at its level. Ceiling:
 /// large level surfaces at least `min_room_height` above it, at any number of heights. A level with
-/// a ceiling closely below and another far above is the next storey's floor. Wall: coplanar upright
-/// patches, taken together across doors, windows and furniture, that reach the ceiling
-/// (section 4.4), that close the room (next to nothing was seen behind them), or, where no ceiling
-/// was seen, are taller than furniture; unless a taller parallel surface stands closely behind
-/// them: then they are a cupboard's front. What lies further than `max_gap` from floor and ceiling
-/// was seen through windows and is left out. Sloping ceilings (under roofs) are doubtful ones.
+/// a ceiling closely below and another far above is the next storey's floor. Each storey is drawn
+/// as a plan and parted into rooms (draw_floor_plan); a room has one floor and one ceiling, and a
+/// wall for each face that closes it (find_wall_faces). Sloping ceilings (under roofs) are doubtful
+/// ones. Where nothing tells rooms, level and tall surfaces are taken as they are, without a room.
 ///
-/// `component.polygon` is the outline of a floor or ceiling, simple but not convex, and the
-/// rectangle from floor to ceiling of a wall (to the end of what was seen, where there is no floor
-/// or ceiling). Nothing found gives an empty table.
-RoomSurfaces find_room_surfaces(const SurfaceSample& sample, std::span<const PlanarPatch> patches,
-                                const Upright& upright, const RoomSurfacesSettings& settings = {},
+/// `component.polygon` is the room's outline for a floor or ceiling, and the rectangle from floor
+/// to ceiling of a wall (to the end of what was seen, where there is no floor or ceiling). Nothing
+/// found gives an empty table.
+RoomSurfaces find_room_surfaces(const ScanMap& map, const SurfaceSample& sample,
+                                std::span<const PlanarPatch> patches, const Upright& upright,
+                                const RoomSurfacesSettings& settings = {},
                                 const Context& context = {});
 
 }  // namespace roomscribe

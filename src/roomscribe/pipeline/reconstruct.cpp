@@ -99,14 +99,15 @@ void interpret_map(Reconstruction& reconstruction, const PipelineSettings& setti
     const Upright upright =
         find_upright(sample, patches, axes, settings.interpretation.upright, context);
     finish("upright", 0.8);
-    RoomSurfaces surfaces =
-        find_room_surfaces(sample, patches, upright, settings.interpretation.surfaces, context);
+    RoomSurfaces surfaces = find_room_surfaces(map, sample, patches, upright,
+                                               settings.interpretation.surfaces, context);
     finish("floor, ceiling, walls", 0.9);
     reconstruction.labels =
         label_points(map.cloud, sample, patches, surfaces, settings.interpretation.labels, context);
     finish("point labels", 1.0);
 
     reconstruction.scene.room_from_map = surfaces.room_from_map;
+    reconstruction.scene.rooms = std::move(surfaces.rooms);
     for (RoomSurface& surface : surfaces.surfaces) {
         reconstruction.scene.components.push_back(std::move(surface.component));
     }

@@ -37,7 +37,7 @@ Interpretation interpret(PointCloud cloud, const Context& context = {}) {
     const PrincipalAxes axes = estimate_principal_axes(result.patches, {}, context);
     result.upright = find_upright(result.sample, result.patches, axes, {}, context);
     result.surfaces =
-        find_room_surfaces(result.sample, result.patches, result.upright, {}, context);
+        find_room_surfaces(map, result.sample, result.patches, result.upright, {}, context);
     result.labels =
         label_points(map.cloud, result.sample, result.patches, result.surfaces, {}, context);
     return result;

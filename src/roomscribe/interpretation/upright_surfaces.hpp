@@ -20,10 +20,6 @@ struct UprightSurface {
     double top = 0.0;
     double area = 0.0;
     double rms = 0.0;
-    /// Of the surface that was seen over its width, the share on the emptier side of it.
-    double share_behind = 0.5;
-    /// Side on which the emptier one is: 1 along the normal, -1 against it, 0 if that is not clear.
-    int back_side = 0;
     std::vector<std::uint32_t> patches;
 
     double height() const { return top - bottom; }
@@ -35,17 +31,5 @@ std::vector<UprightSurface> find_upright_surfaces(const SurfaceSample& sample,
                                                   std::span<const PlanarPatch> patches,
                                                   const Eigen::Vector3d& up, double from, double to,
                                                   const RoomSurfacesSettings& settings);
-
-/// Whether an upright surface is a wall, and why.
-struct WallJudgement {
-    bool is_wall = false;
-    bool reaches_ceiling = false;
-    bool reaches_floor = false;
-    double confidence = 0.0;
-    std::string_view rule;
-    std::string_view alternative;  ///< not empty if doubtful
-};
-WallJudgement judge_wall(const UprightSurface& surface, std::span<const UprightSurface> others,
-                         const Storey& storey, const RoomSurfacesSettings& settings);
 
 }  // namespace roomscribe

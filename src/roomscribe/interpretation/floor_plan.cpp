@@ -1,0 +1,632 @@
+// SPDX-License-Identifier: MIT
+#include "roomscribe/interpretation/floor_plan.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <utility>
+
+#include "roomscribe/core/disjoint_sets.hpp"
+#include "roomscribe/core/quantile.hpp"
+#include "roomscribe/geometry/polygon.hpp"
+
+namespace roomscribe {
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+/// m. Half of the thinnest wall: its two faces lie in different cells.
+constexpr double min_cell_size = 0.05;
+/// m, of a storey's plan to either side. Farther, it was seen through a window.
+constexpr double max_reach = 60.0;
+/// m, of the slices in which upright surface is counted.
+constexpr double slice_height = 0.1;
+constexpr int num_slices = 64;
+/// m. Cornices, lamps and the scanner's own limits hide the rest of a wall under the ceiling; a
+/// lintel is higher (doors 2.1 m, ceilings 2.4 m and more).
+constexpr double lintel_reach = 0.4;
+/// m. Widest opening that is closed between two pieces of one line where no lintel shows: a door
+/// of 1.1 m and its frame (DIN 18101).
+constexpr double max_door_gap = 1.3;
+/// m. Openings are not wider (a double door, a passage); what parts along a longer line only under
+/// the ceiling is a beam.
+constexpr double max_opening = 2.2;
+/// m2. The smallest room, a WC, has 0.9 x 1.2 m.
+constexpr double min_room_area = 0.8;
+/// m. More than a beam is deep.
+constexpr double min_wall_height = 0.9;
+/// m above the floor. Higher than a desk or a kitchen's base unit with its back panel.
+constexpr double min_free_wall_top = 1.5;
+/// Of a place on a wall whose top was not seen.
+constexpr int min_slices = 3;
+/// Rays that are traced for free space.
+constexpr std::size_t max_rays = 400'000;
+
+std::uint64_t slices_between(double low, double high) {
+    const int first = std::clamp(static_cast<int>(std::ceil(low / slice_height)), 0, num_slices);
+    const int last = std::clamp(static_cast<int>(std::floor(high / slice_height)), 0, num_slices);
+    std::uint64_t mask = 0;
+    for (int i = first; i < last; ++i)
+        mask |= std::uint64_t{1} << static_cast<unsigned>(i);
+    return mask;
+}
+
+double share_of(std::uint64_t slices, std::uint64_t wanted) {
+    // The lines of a scanner may lie further apart than a slice is high.
+    const std::uint64_t filled = slices | (slices << 1U) | (slices >> 1U);
+    return wanted == 0 ? 0.0
+                       : static_cast<double>(std::popcount(filled & wanted)) /
+                             static_cast<double>(std::popcount(wanted));
+}
+
+/// What a cell of the plan is known to be.
+struct PlanCell {
+    std::uint32_t num_rays = 0;
+    float ceiling = std::numeric_limits<float>::quiet_NaN();
+    bool has_floor = false;
+    bool is_occupied = false;  ///< something was seen between floor and ceiling
+    bool is_solid = false;     ///< of a barrier: there is surface at the height of people too
+};
+
+class PlanDrawer {
+  public:
+    PlanDrawer(const SurfaceSample& sample, std::span<const PlanarPatch> patches,
+               const Eigen::Matrix3d& room_from_map, const Storey& storey)
+        : sample_(sample), patches_(patches), room_from_map_(room_from_map), storey_(storey) {}
+
+    FloorPlan run(const ScanMap& map, std::span<const UprightSurface> surfaces,
+                  const Context& context);
+
+  private:
+    Vector3d in_room(const Eigen::Vector3f& position) const {
+        return room_from_map_ * position.cast<double>();
+    }
+    template <typename Visit>
+    void for_each_voxel(const Level& level, Visit&& visit) const {
+        for (const std::uint32_t patch : level.patches) {
+            for (const std::uint32_t voxel : patches_[patch].points)
+                visit(in_room(sample_.cloud.positions[voxel]));
+        }
+    }
+    bool lay_out();
+    void mark_levels();
+    void mark_occupied();
+    void trace_rays(const ScanMap& map, const Context& context);
+    void draw_barrier(const UprightSurface& surface);
+    bool has_level_behind(const Vector2d& place, const Vector2d& normal) const;
+    std::optional<double> ceiling_near(const Vector2d& place) const;
+    std::vector<bool> find_inside() const;
+    void flood_rooms(const std::vector<bool>& inside);
+    void join_under_beams();
+    void choose_rooms();
+    template <typename MayTake>
+    void grow(double reach, MayTake&& may_take);
+    void describe_rooms();
+    template <typename Visit>
+    void for_each_neighbor(std::size_t cell, int reach, Visit&& visit) const;
+
+    const SurfaceSample& sample_;
+    std::span<const PlanarPatch> patches_;
+    Eigen::Matrix3d room_from_map_;
+    const Storey& storey_;
+    double floor_ = 0.0;
+    FloorPlan plan_;
+    std::vector<PlanCell> cells_;
+};
+
+template <typename Visit>
+void PlanDrawer::for_each_neighbor(std::size_t cell, int reach, Visit&& visit) const {
+    const int x = static_cast<int>(cell % static_cast<std::size_t>(plan_.width()));
+    const int y = static_cast<int>(cell / static_cast<std::size_t>(plan_.width()));
+    for (int j = std::max(0, y - reach); j <= std::min(plan_.height() - 1, y + reach); ++j) {
+        for (int i = std::max(0, x - reach); i <= std::min(plan_.width() - 1, x + reach); ++i) {
+            visit(static_cast<std::size_t>(j) * static_cast<std::size_t>(plan_.width()) +
+                  static_cast<std::size_t>(i));
+        }
+    }
+}
+
+/// The raster over all level surface of the storey and the scanners. False if there is none.
+bool PlanDrawer::lay_out() {
+    std::vector<double> xs;
+    std::vector<double> ys;
+    double lowest = std::numeric_limits<double>::infinity();
+    const auto include = [&](const Vector3d& point) {
+        xs.push_back(point.x());
+        ys.push_back(point.y());
+        lowest = std::min(lowest, point.z());
+    };
+    for (const Level& level : storey_.ceilings)
+        for_each_voxel(level, include);
+    if (storey_.floor) for_each_voxel(*storey_.floor, include);
+    for (const Level& level : storey_.other_floors)
+        for_each_voxel(level, include);
+    if (xs.empty()) return false;
+    constexpr double assumed_height = 2.5;  // of a storey that shows its ceiling only
+    floor_ = storey_.floor ? storey_.floor->height : *storey_.ceiling_height() - assumed_height;
+
+    const Vector2d middle(median(xs), median(ys));
+    const Vector2d margin = Vector2d::Constant(0.5);
+    const Vector2d low =
+        Vector2d(*std::min_element(xs.begin(), xs.end()), *std::min_element(ys.begin(), ys.end()))
+            .cwiseMax(middle - Vector2d::Constant(max_reach));
+    const Vector2d high =
+        Vector2d(*std::max_element(xs.begin(), xs.end()), *std::max_element(ys.begin(), ys.end()))
+            .cwiseMin(middle + Vector2d::Constant(max_reach));
+    plan_ =
+        FloorPlan(low - margin, high + margin, std::max(min_cell_size, 1.25 * sample_.voxel_size));
+    cells_.resize(plan_.num_cells());
+    return true;
+}
+
+void PlanDrawer::mark_levels() {
+    const auto mark_floor = [&](const Vector3d& point) {
+        const auto cell = plan_.cell_at(point.head<2>());
+        if (!cell) return;
+        cells_[*cell].has_floor = true;
+        plan_.has_level[*cell] = true;
+    };
+    if (storey_.floor) for_each_voxel(*storey_.floor, mark_floor);
+    for (const Level& level : storey_.other_floors)
+        for_each_voxel(level, mark_floor);
+    for (const Level& level : storey_.ceilings) {
+        for_each_voxel(level, [&](const Vector3d& point) {
+            const auto cell = plan_.cell_at(point.head<2>());
+            if (!cell) return;
+            plan_.has_level[*cell] = true;
+            float& ceiling = cells_[*cell].ceiling;
+            const auto height = static_cast<float>(point.z());
+            if (!(ceiling >= height)) ceiling = height;
+        });
+    }
+}
+
+/// Marks where anything stands: also without rays it is known to be within the building.
+void PlanDrawer::mark_occupied() {
+    const double top = storey_.ceilings.empty() ? std::numeric_limits<double>::infinity()
+                                                : storey_.ceilings.back().height;
+    for (const Eigen::Vector3f& position : sample_.cloud.positions) {
+        const Vector3d point = in_room(position);
+        if (point.z() < floor_ || point.z() > top) continue;
+        if (const auto cell = plan_.cell_at(point.head<2>())) cells_[*cell].is_occupied = true;
+    }
+}
+
+/// Counts in each cell the rays that pass between floor and ceiling.
+void PlanDrawer::trace_rays(const ScanMap& map, const Context& context) {
+    const std::size_t stride = map.cloud.size() / max_rays + 1;
+    const double top = storey_.ceilings.empty() ? std::numeric_limits<double>::infinity()
+                                                : storey_.ceilings.back().height;
+    const double step = 0.5 * plan_.cell_size();
+    for (const MapSection& section : map.sections) {
+        context.throw_if_cancelled();
+        if (!section.sensor_position) continue;
+        const Vector3d origin = room_from_map_ * *section.sensor_position;
+        for (std::size_t i = section.first; i < section.first + section.count; i += stride) {
+            if (!map.cloud.positions[i].allFinite()) continue;
+            const Vector3d ray = in_room(map.cloud.positions[i]) - origin;
+            const double length = ray.head<2>().norm();
+            // Short of the point by more than its error.
+            const double end = std::min(length - 3.0 * plan_.cell_size(), 2.0 * max_reach);
+            std::size_t last = plan_.num_cells();
+            for (double along = 0.0; along < end; along += step) {
+                const Vector3d point = origin + (along / length) * ray;
+                if (point.z() < floor_ || point.z() > top) break;
+                const auto cell = plan_.cell_at(point.head<2>());
+                if (!cell) break;
+                if (*cell != last) ++cells_[*cell].num_rays;
+                last = *cell;
+            }
+        }
+    }
+}
+
+std::optional<double> PlanDrawer::ceiling_near(const Vector2d& place) const {
+    const auto cell = plan_.cell_at(place);
+    float highest = std::numeric_limits<float>::quiet_NaN();
+    if (cell) {
+        for_each_neighbor(*cell, 4, [&](std::size_t other) {
+            if (!(highest >= cells_[other].ceiling)) highest = cells_[other].ceiling;
+        });
+    }
+    if (std::isnan(highest)) return std::nullopt;
+    return static_cast<double>(highest);
+}
+
+/// Whether floor or ceiling was seen behind a place on an upright surface, as it is behind
+/// furniture.
+bool PlanDrawer::has_level_behind(const Vector2d& place, const Vector2d& normal) const {
+    constexpr double nearest = 0.1;
+    constexpr double farthest = 0.4;
+    for (double depth = nearest; depth <= farthest; depth += plan_.cell_size()) {
+        if (plan_.has_level_at(place - depth * normal)) return true;
+    }
+    return false;
+}
+
+/// Marks the cells on the surface's line along which it parts rooms.
+void PlanDrawer::draw_barrier(const UprightSurface& surface) {
+    const double step = plan_.cell_size();
+    const auto count = static_cast<std::size_t>(surface.width() / step) + 1;
+    std::vector<std::uint64_t> slices(count, 0);
+    for (const std::uint32_t patch : surface.patches) {
+        for (const std::uint32_t voxel : patches_[patch].points) {
+            const Vector3d position = sample_.cloud.positions[voxel].cast<double>();
+            const double along = (position.dot(surface.along) - surface.start) / step;
+            const double above =
+                (in_room(sample_.cloud.positions[voxel]).z() - floor_) / slice_height;
+            if (along < 0.0 || along >= static_cast<double>(count)) continue;
+            if (above < 0.0 || above >= num_slices) continue;
+            slices[static_cast<std::size_t>(along)] |= std::uint64_t{1}
+                                                       << static_cast<unsigned>(above);
+        }
+    }
+    const auto place_of = [&](double position) -> Vector2d {
+        const Vector3d point = surface.plane.offset * surface.plane.normal +
+                               (surface.start + position * step) * surface.along;
+        return (room_from_map_ * point).head<2>();
+    };
+    const std::uint64_t body = slices_between(0.5, 1.8);
+    const Vector2d normal = (room_from_map_ * surface.plane.normal).head<2>();
+    const auto closes = [&](double position) {
+        const Vector2d place = place_of(position);
+        return !has_level_behind(place, normal) ||
+               (!sample_.normals_face_scanner && !has_level_behind(place, -normal));
+    };
+    const bool is_tall =
+        surface.height() >= min_wall_height && surface.top >= floor_ + min_free_wall_top;
+    std::vector<bool> parts(count, false);
+    for (std::size_t i = 0; i < count; ++i) {
+        const double middle = static_cast<double>(i) + 0.5;
+        const auto ceiling = ceiling_near(place_of(middle));
+        const double top = ceiling.value_or(0.0) - floor_;
+        const bool has_lintel =
+            ceiling && (slices[i] & slices_between(top - lintel_reach, top + slice_height)) != 0;
+        const bool is_body = !ceiling && share_of(slices[i], body) >= 0.6;
+        const bool is_last = is_tall && std::popcount(slices[i]) >= min_slices && closes(middle);
+        parts[i] = has_lintel || is_body || is_last;
+    }
+    // Gaps between two pieces, each long enough not to be a stray.
+    const auto max_gap = static_cast<std::size_t>(max_door_gap / step);
+    std::size_t last = count;
+    for (std::size_t i = 0; i < count; ++i) {
+        if (!parts[i]) continue;
+        if (last != count && i - last > 1 && i - last <= max_gap)
+            std::fill(parts.begin() + static_cast<std::ptrdiff_t>(last),
+                      parts.begin() + static_cast<std::ptrdiff_t>(i), true);
+        last = i;
+    }
+    const auto draw = [&](double position, bool is_solid) {
+        const auto cell = plan_.cell_at(place_of(position));
+        if (!cell) return;
+        plan_.is_barrier[*cell] = true;
+        cells_[*cell].is_solid = cells_[*cell].is_solid || is_solid;
+    };
+    for (std::size_t i = 0; i < count; ++i) {
+        if (!parts[i]) continue;
+        const bool is_solid = share_of(slices[i], body) >= 0.4;
+        for (const double offset : {0.0, 0.25, 0.5, 0.75})
+            draw(static_cast<double>(i) + offset, is_solid);
+        // Corners are seen badly: an end reaches a little further.
+        constexpr double overlap = 2.0;
+        const bool is_first = i == 0 || !parts[i - 1];
+        const bool is_last = i + 1 == count || !parts[i + 1];
+        for (double beyond = 0.5; beyond <= overlap; beyond += 0.5) {
+            if (is_first) draw(static_cast<double>(i) - beyond, is_solid);
+            if (is_last) draw(static_cast<double>(i) + 1.0 + beyond, is_solid);
+        }
+    }
+}
+
+/// Cells with a level surface near them in which something was seen, or that rays passed through.
+std::vector<bool> PlanDrawer::find_inside() const {
+    // Lamps, tables and what else hides both floor and ceiling.
+    const int reach = static_cast<int>(std::lround(0.5 / plan_.cell_size()));
+    constexpr std::uint32_t min_rays = 2;
+    std::vector<bool> inside(cells_.size(), false);
+    for (std::size_t cell = 0; cell < cells_.size(); ++cell) {
+        if (plan_.has_level[cell]) {
+            inside[cell] = true;
+        } else if (cells_[cell].is_occupied || cells_[cell].num_rays >= min_rays) {
+            bool is_near = false;
+            for_each_neighbor(cell, reach, [&](std::size_t other) {
+                is_near = is_near || plan_.has_level[other];
+            });
+            inside[cell] = is_near;
+        }
+    }
+    return inside;
+}
+
+void PlanDrawer::flood_rooms(const std::vector<bool>& inside) {
+    plan_.room_of_cell.assign(cells_.size(), no_room);
+    std::int32_t num_rooms = 0;
+    std::vector<std::size_t> stack;
+    const auto width = static_cast<std::size_t>(plan_.width());
+    for (std::size_t seed = 0; seed < cells_.size(); ++seed) {
+        const auto is_free = [&](std::size_t cell) {
+            return inside[cell] && !plan_.is_barrier[cell] && plan_.room_of_cell[cell] == no_room;
+        };
+        if (!is_free(seed)) continue;
+        plan_.room_of_cell[seed] = num_rooms;
+        stack.push_back(seed);
+        while (!stack.empty()) {
+            const std::size_t cell = stack.back();
+            stack.pop_back();
+            const auto visit = [&](std::size_t next) {
+                if (!is_free(next)) return;
+                plan_.room_of_cell[next] = num_rooms;
+                stack.push_back(next);
+            };
+            if (cell % width > 0) visit(cell - 1);
+            if (cell % width + 1 < width) visit(cell + 1);
+            if (cell >= width) visit(cell - width);
+            if (cell + width < cells_.size()) visit(cell + width);
+        }
+        ++num_rooms;
+    }
+    plan_.rooms.assign(static_cast<std::size_t>(num_rooms), {});
+}
+
+/// Makes one of rooms that are parted under the ceiling alone, along more than an opening's width.
+void PlanDrawer::join_under_beams() {
+    struct Border {
+        int length = 0;
+        int open = 0;
+    };
+    std::map<std::pair<std::int32_t, std::int32_t>, Border> borders;
+    const int reach = static_cast<int>(std::lround(0.15 / plan_.cell_size()));
+    for (std::size_t cell = 0; cell < cells_.size(); ++cell) {
+        if (!plan_.is_barrier[cell]) continue;
+        std::int32_t first = no_room;
+        std::int32_t second = no_room;
+        for_each_neighbor(cell, reach, [&](std::size_t other) {
+            const std::int32_t room = plan_.room_of_cell[other];
+            if (room == no_room || room == first) return;
+            (first == no_room ? first : second) = room;
+        });
+        if (second == no_room) continue;
+        Border& border = borders[std::minmax(first, second)];
+        ++border.length;
+        border.open += cells_[cell].is_solid ? 0 : 1;
+    }
+    DisjointSets sets(plan_.rooms.size());
+    for (const auto& [pair, border] : borders) {
+        // Either face of a beam is a line of cells.
+        const double open_length = 0.5 * border.open * plan_.cell_size();
+        if (open_length >= max_opening && border.open >= 0.6 * border.length) {
+            sets.join(static_cast<std::uint32_t>(pair.first),
+                      static_cast<std::uint32_t>(pair.second));
+        }
+    }
+    for (std::int32_t& room : plan_.room_of_cell) {
+        if (room != no_room)
+            room = static_cast<std::int32_t>(sets.find(static_cast<std::uint32_t>(room)));
+    }
+}
+
+/// Leaves out what is too small, and what lies outdoors: without a ceiling, and not between walls.
+void PlanDrawer::choose_rooms() {
+    struct Count {
+        int cells = 0;
+        int ceiling = 0;
+        int floor = 0;
+        int rim = 0;         ///< cells beside others than the room's
+        int closed_rim = 0;  ///< of these, beside a barrier
+        bool holds_scanner = false;
+    };
+    std::vector<Count> counts(plan_.rooms.size());
+    for (std::size_t cell = 0; cell < cells_.size(); ++cell) {
+        const std::int32_t room = plan_.room_of_cell[cell];
+        if (room == no_room) continue;
+        Count& count = counts[static_cast<std::size_t>(room)];
+        ++count.cells;
+        count.ceiling += std::isnan(cells_[cell].ceiling) ? 0 : 1;
+        count.floor += cells_[cell].has_floor ? 1 : 0;
+        bool is_rim = false;
+        bool is_closed = false;
+        for_each_neighbor(cell, 1, [&](std::size_t other) {
+            is_rim = is_rim || plan_.room_of_cell[other] != room;
+            is_closed = is_closed || plan_.is_barrier[other];
+        });
+        count.rim += is_rim ? 1 : 0;
+        count.closed_rim += is_closed ? 1 : 0;
+    }
+    for (const Vector3d& sensor : sample_.sensor_positions) {
+        const std::int32_t room = plan_.room_at((room_from_map_ * sensor).head<2>());
+        if (room != no_room) counts[static_cast<std::size_t>(room)].holds_scanner = true;
+    }
+    const double cell_area = plan_.cell_size() * plan_.cell_size();
+    constexpr double min_level_share = 0.3;
+    constexpr double min_closed_share = 0.5;
+    const bool knows_scanners = !sample_.sensor_positions.empty();
+    std::vector<std::int32_t> number(counts.size(), no_room);
+    plan_.rooms.clear();
+    for (std::size_t i = 0; i < counts.size(); ++i) {
+        const Count& count = counts[i];
+        if (count.cells * cell_area < min_room_area) continue;
+        const bool has_ceiling = count.ceiling >= min_level_share * count.cells;
+        const bool is_walled =
+            count.floor >= min_level_share * count.cells &&
+            (!knows_scanners || count.closed_rim >= min_closed_share * count.rim);
+        if (!count.holds_scanner && !has_ceiling && !is_walled) continue;
+        number[i] = static_cast<std::int32_t>(plan_.rooms.size());
+        plan_.rooms.emplace_back().holds_scanner = count.holds_scanner;
+    }
+    for (std::int32_t& room : plan_.room_of_cell) {
+        if (room != no_room) room = number[static_cast<std::size_t>(room)];
+    }
+}
+
+/// Rooms take what lies beside them, a cell's width at a time, where `may_take` allows.
+template <typename MayTake>
+void PlanDrawer::grow(double reach, MayTake&& may_take) {
+    const int steps = static_cast<int>(std::lround(reach / plan_.cell_size()));
+    const auto width = static_cast<std::size_t>(plan_.width());
+    for (int step = 0; step < steps; ++step) {
+        const std::vector<std::int32_t> before = plan_.room_of_cell;
+        for (std::size_t cell = 0; cell < cells_.size(); ++cell) {
+            if (before[cell] != no_room || !may_take(cell)) continue;
+            std::int32_t& room = plan_.room_of_cell[cell];
+            const auto take = [&](std::size_t other) { room = std::max(room, before[other]); };
+            if (cell % width > 0) take(cell - 1);
+            if (cell % width + 1 < width) take(cell + 1);
+            if (cell >= width) take(cell - width);
+            if (cell + width < cells_.size()) take(cell + width);
+        }
+    }
+}
+
+void PlanDrawer::describe_rooms() {
+    std::vector<std::vector<float>> ceilings(plan_.rooms.size());
+    for (std::size_t cell = 0; cell < cells_.size(); ++cell) {
+        if (plan_.room_of_cell[cell] == no_room) continue;
+        const auto room = static_cast<std::size_t>(plan_.room_of_cell[cell]);
+        plan_.rooms[room].area += plan_.cell_size() * plan_.cell_size();
+        if (!std::isnan(cells_[cell].ceiling)) ceilings[room].push_back(cells_[cell].ceiling);
+    }
+    for (std::size_t room = 0; room < plan_.rooms.size(); ++room) {
+        plan_.rooms[room].floor_height = floor_;
+        if (ceilings[room].empty()) continue;
+        plan_.rooms[room].ceiling_height = static_cast<double>(median(ceilings[room]));
+        plan_.rooms[room].lowest_ceiling = static_cast<double>(quantile(ceilings[room], 0.1));
+    }
+}
+
+FloorPlan PlanDrawer::run(const ScanMap& map, std::span<const UprightSurface> surfaces,
+                          const Context& context) {
+    if (!lay_out()) return {};
+    mark_levels();
+    mark_occupied();
+    trace_rays(map, context);
+    for (const UprightSurface& surface : surfaces)
+        draw_barrier(surface);
+    flood_rooms(find_inside());
+    join_under_beams();
+    choose_rooms();
+    // Up to what parts the rooms, also where the strip along it was not seen; and the floors and
+    // ceilings of doorways and niches, which are in no room of their own.
+    grow(0.3, [&](std::size_t cell) { return !plan_.is_barrier[cell]; });
+    grow(0.5, [&](std::size_t cell) { return plan_.has_level[cell]; });
+    describe_rooms();
+    return std::move(plan_);
+}
+
+/// Corners that lie within `tolerance` of the line through their neighbours are left out, the least
+/// first (Visvalingam and Whyatt 1993 by height instead of area).
+void smooth_ring(std::vector<Vector2d>& ring, double tolerance) {
+    while (ring.size() > 4) {
+        std::size_t flattest = 0;
+        double least = std::numeric_limits<double>::infinity();
+        for (std::size_t i = 0; i < ring.size(); ++i) {
+            const Vector2d& before = ring[(i + ring.size() - 1) % ring.size()];
+            const Vector2d& after = ring[(i + 1) % ring.size()];
+            const double length = (after - before).norm();
+            const double height = length > 0.0
+                                      ? std::abs(cross(after - before, ring[i] - before)) / length
+                                      : (ring[i] - before).norm();
+            if (height >= least) continue;
+            least = height;
+            flattest = i;
+        }
+        if (least > tolerance) break;
+        ring.erase(ring.begin() + static_cast<std::ptrdiff_t>(flattest));
+    }
+}
+
+}  // namespace
+
+FloorPlan::FloorPlan(const Vector2d& low, const Vector2d& high, double cell_size)
+    : low_(low),
+      cell_size_(cell_size),
+      width_(static_cast<int>((high.x() - low.x()) / cell_size) + 1),
+      height_(static_cast<int>((high.y() - low.y()) / cell_size) + 1) {
+    room_of_cell.assign(num_cells(), no_room);
+    is_barrier.assign(num_cells(), false);
+    has_level.assign(num_cells(), false);
+}
+
+std::optional<std::size_t> FloorPlan::cell_at(const Vector2d& place) const {
+    const Vector2d offset = (place - low_) / cell_size_;
+    if (!(offset.x() >= 0.0 && offset.y() >= 0.0 && offset.x() < width_ && offset.y() < height_))
+        return std::nullopt;
+    return static_cast<std::size_t>(offset.y()) * static_cast<std::size_t>(width_) +
+           static_cast<std::size_t>(offset.x());
+}
+
+Vector2d FloorPlan::middle_of(std::size_t cell) const {
+    const auto width = static_cast<std::size_t>(width_);
+    return low_ + cell_size_ * Vector2d(static_cast<double>(cell % width) + 0.5,
+                                        static_cast<double>(cell / width) + 0.5);
+}
+
+std::int32_t FloorPlan::room_at(const Vector2d& place) const {
+    const auto cell = cell_at(place);
+    return cell ? room_of_cell[*cell] : no_room;
+}
+
+bool FloorPlan::is_barrier_at(const Vector2d& place) const {
+    const auto cell = cell_at(place);
+    return cell && is_barrier[*cell];
+}
+
+bool FloorPlan::has_level_at(const Vector2d& place) const {
+    const auto cell = cell_at(place);
+    return cell && has_level[*cell];
+}
+
+FloorPlan draw_floor_plan(const ScanMap& map, const SurfaceSample& sample,
+                          std::span<const PlanarPatch> patches,
+                          const Eigen::Matrix3d& room_from_map, const Storey& storey,
+                          std::span<const UprightSurface> surfaces, const Context& context) {
+    return PlanDrawer(sample, patches, room_from_map, storey).run(map, surfaces, context);
+}
+
+std::vector<Vector2d> trace_room(const FloorPlan& plan, std::int32_t room) {
+    // Edges between cells of the room and others, the room to the left, by their first corner.
+    const int width = plan.width();
+    const auto is_room = [&](int x, int y) {
+        return x >= 0 && y >= 0 && x < width && y < plan.height() &&
+               plan.room_of_cell[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
+                                 static_cast<std::size_t>(x)] == room;
+    };
+    using Corner = std::array<int, 2>;
+    std::multimap<Corner, Corner> edges;
+    for (int y = 0; y < plan.height(); ++y) {
+        for (int x = 0; x < width; ++x) {
+            if (!is_room(x, y)) continue;
+            if (!is_room(x, y - 1)) edges.insert({{x, y}, {x + 1, y}});
+            if (!is_room(x + 1, y)) edges.insert({{x + 1, y}, {x + 1, y + 1}});
+            if (!is_room(x, y + 1)) edges.insert({{x + 1, y + 1}, {x, y + 1}});
+            if (!is_room(x - 1, y)) edges.insert({{x, y + 1}, {x, y}});
+        }
+    }
+    std::vector<Vector2d> best;
+    double largest = 0.0;
+    const Vector2d low =
+        plan.num_cells() > 0
+            ? Vector2d(plan.middle_of(0) - Vector2d::Constant(0.5 * plan.cell_size()))
+            : Vector2d::Zero();
+    while (!edges.empty()) {
+        std::vector<Vector2d> ring;
+        auto edge = edges.begin();
+        while (edge != edges.end()) {
+            ring.emplace_back(low + plan.cell_size() * Vector2d(edge->first[0], edge->first[1]));
+            const Corner next = edge->second;
+            edges.erase(edge);
+            edge = edges.find(next);
+        }
+        const double area = signed_area(ring);
+        if (area <= largest) continue;
+        largest = area;
+        best = std::move(ring);
+    }
+    smooth_ring(best, 1.5 * plan.cell_size());
+    return best;
+}
+
+}  // namespace roomscribe

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "roomscribe/core/context.hpp"
+#include "roomscribe/interpretation/level_surfaces.hpp"
+#include "roomscribe/interpretation/upright_surfaces.hpp"
+#include "roomscribe/model/scan.hpp"
+
+namespace roomscribe {
+
+/// In FloorPlan: no room.
+inline constexpr std::int32_t no_room = -1;
+
+/// A room as seen from above.
+struct PlanRoom {
+    double floor_height = 0.0;             ///< m along up
+    std::optional<double> ceiling_height;  ///< median of what was seen of it
+    std::optional<double> lowest_ceiling;  ///< a tenth of it is lower
+    double area = 0.0;                     ///< m2, of its cells
+    bool holds_scanner = false;
+};
+
+/// The rooms of a storey in a raster seen from above. Places are x and y of the room frame without
+/// its translation (Upright::room_from_map).
+class FloorPlan {
+  public:
+    FloorPlan() = default;
+    FloorPlan(const Eigen::Vector2d& low, const Eigen::Vector2d& high, double cell_size);
+
+    double cell_size() const { return cell_size_; }
+    int width() const { return width_; }
+    int height() const { return height_; }
+    std::size_t num_cells() const {
+        return static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_);
+    }
+    /// Number of the cell that holds the place, if there is one.
+    std::optional<std::size_t> cell_at(const Eigen::Vector2d& place) const;
+    Eigen::Vector2d middle_of(std::size_t cell) const;
+
+    /// Number of the room at the place, or no_room.
+    std::int32_t room_at(const Eigen::Vector2d& place) const;
+
+    /// Whether something parts rooms there.
+    bool is_barrier_at(const Eigen::Vector2d& place) const;
+    /// Whether floor or ceiling was seen there.
+    bool has_level_at(const Eigen::Vector2d& place) const;
+
+    std::vector<std::int32_t> room_of_cell;
+    std::vector<bool> is_barrier;  ///< per cell
+    std::vector<bool> has_level;   ///< per cell: floor or ceiling was seen
+    std::vector<PlanRoom> rooms;
+
+  private:
+    Eigen::Vector2d low_ = Eigen::Vector2d::Zero();
+    double cell_size_ = 1.0;
+    int width_ = 0;
+    int height_ = 0;
+};
+
+/// Rooms are where floor or ceiling was seen, or rays passed through close to it, parted by upright
+/// surfaces. A surface parts rooms along its line where it reaches up to the ceiling, as a lintel
+/// does over a door, and not as furniture does; where no ceiling was seen, where it is taller than
+/// furniture. Gaps as wide as doors between pieces of one line are parted too. What parts only
+/// high up along a long line, as beams and steps of the ceiling do, parts no rooms.
+///
+/// Of a storey without surface or wall there are no rooms.
+FloorPlan draw_floor_plan(const ScanMap& map, const SurfaceSample& sample,
+                          std::span<const PlanarPatch> patches,
+                          const Eigen::Matrix3d& room_from_map, const Storey& storey,
+                          std::span<const UprightSurface> surfaces, const Context& context = {});
+
+/// The outline of a room: the rim of its cells without steps, counter-clockwise, in the plan's
+/// coordinates. Empty for a room without cells.
+std::vector<Eigen::Vector2d> trace_room(const FloorPlan& plan, std::int32_t room);
+
+}  // namespace roomscribe

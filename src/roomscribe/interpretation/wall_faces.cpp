@@ -1,0 +1,305 @@
+// SPDX-License-Identifier: MIT
+#include "roomscribe/interpretation/wall_faces.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+
+#include <Eigen/Geometry>
+
+#include "roomscribe/core/quantile.hpp"
+#include "roomscribe/core/units.hpp"
+#include "roomscribe/geometry/polygon.hpp"
+
+namespace roomscribe {
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+/// Share of a face's voxels that its extent leaves out at either end: strays.
+constexpr double stray_share = 0.005;
+/// m2. Less of a wall is not worth a name: the strip beside a door is 10 cm wide.
+constexpr double min_face_area = 0.2;
+/// m2. A door leaf has 1.6 m2, the front of a desk less than 1.
+constexpr double min_closing_area = 1.0;
+/// m. Leaves and panes lie no deeper in their wall.
+constexpr double max_inset = 0.3;
+/// m. Cupboards are 0.2 to 0.9 m deep, and leave this much of the wall behind them to see.
+constexpr double max_furniture_depth = 1.0;
+constexpr double min_clearance = 0.15;
+
+class FaceFinder {
+  public:
+    FaceFinder(const SurfaceSample& sample, std::span<const PlanarPatch> patches,
+               const FloorPlan& plan, const Eigen::Matrix3d& room_from_map,
+               const RoomSurfacesSettings& settings)
+        : sample_(sample),
+          patches_(patches),
+          plan_(plan),
+          room_from_map_(room_from_map),
+          up_(room_from_map.row(2).transpose()),
+          settings_(settings) {}
+
+    void add(const UprightSurface& surface) {
+        add_side(surface, surface.plane);
+        if (!sample_.normals_face_scanner) add_side(surface, surface.plane.flipped());
+    }
+    std::vector<WallFace> take();
+
+  private:
+    std::int32_t room_before(const Vector3d& point, const Vector3d& normal) const;
+    bool is_closed_behind(const Vector3d& point, const Vector3d& normal, std::int32_t room) const;
+    void add_side(const UprightSurface& surface, const Plane& plane);
+    void split(std::int32_t room, const Plane& plane, double rms,
+               std::vector<std::pair<double, std::uint32_t>> voxels);
+    bool is_last(const WallFace& face) const;
+    bool is_wall(const WallFace& face) const;
+    bool belongs_to(const WallFace& face, const WallFace& wall) const;
+
+    const SurfaceSample& sample_;
+    std::span<const PlanarPatch> patches_;
+    const FloorPlan& plan_;
+    Eigen::Matrix3d room_from_map_;
+    Vector3d up_;
+    const RoomSurfacesSettings& settings_;
+    std::vector<WallFace> faces_;
+};
+
+std::int32_t FaceFinder::room_before(const Vector3d& point, const Vector3d& normal) const {
+    // What stands before the wall may hide floor and ceiling to its depth.
+    for (double depth = 1.5 * plan_.cell_size(); depth <= max_furniture_depth;
+         depth += plan_.cell_size()) {
+        const Vector3d place = room_from_map_ * (point + depth * normal);
+        const std::int32_t room = plan_.room_at(place.head<2>());
+        if (room != no_room) return room;
+        if (plan_.is_barrier_at(place.head<2>())) return no_room;
+    }
+    return no_room;
+}
+
+bool FaceFinder::is_closed_behind(const Vector3d& point, const Vector3d& normal,
+                                  std::int32_t room) const {
+    int same = 0;
+    for (const double cells : {2.0, 3.0}) {
+        const Vector3d place = room_from_map_ * (point - cells * plan_.cell_size() * normal);
+        same += plan_.room_at(place.head<2>()) == room ? 1 : 0;
+    }
+    return same < 2;
+}
+
+void FaceFinder::add_side(const UprightSurface& surface, const Plane& plane) {
+    const Vector3d along = up_.cross(plane.normal);
+    std::map<std::int32_t, std::vector<std::pair<double, std::uint32_t>>> by_room;
+    for (const std::uint32_t patch : surface.patches) {
+        for (const std::uint32_t voxel : patches_[patch].points) {
+            const Vector3d point = sample_.cloud.positions[voxel].cast<double>();
+            const std::int32_t room = room_before(point, plane.normal);
+            if (room == no_room || !is_closed_behind(point, plane.normal, room)) continue;
+            by_room[room].emplace_back(point.dot(along), voxel);
+        }
+    }
+    for (auto& [room, voxels] : by_room)
+        split(room, plane, surface.rms, std::move(voxels));
+}
+
+/// A face for each run without a gap wider than an opening.
+void FaceFinder::split(std::int32_t room, const Plane& plane, double rms,
+                       std::vector<std::pair<double, std::uint32_t>> voxels) {
+    std::sort(voxels.begin(), voxels.end());
+    const double voxel_area = sample_.spacing * sample_.spacing;
+    for (std::size_t begin = 0; begin < voxels.size();) {
+        std::size_t end = begin + 1;
+        while (end < voxels.size() &&
+               voxels[end].first - voxels[end - 1].first <= settings_.max_gap) {
+            ++end;
+        }
+        WallFace face;
+        face.room = room;
+        face.plane = plane;
+        face.along = up_.cross(plane.normal);
+        face.rms = rms;
+        std::vector<double> heights;
+        std::vector<double> places;
+        for (std::size_t i = begin; i < end; ++i) {
+            face.voxels.push_back(voxels[i].second);
+            places.push_back(voxels[i].first);
+            heights.push_back(sample_.cloud.positions[voxels[i].second].cast<double>().dot(up_));
+        }
+        begin = end;
+        face.start = quantile(places, stray_share);
+        face.end = quantile(places, 1.0 - stray_share);
+        face.bottom = quantile(heights, stray_share);
+        face.top = quantile(heights, 1.0 - stray_share);
+        face.area = voxel_area * static_cast<double>(face.voxels.size());
+        if (face.area >= min_face_area && is_wall(face)) faces_.push_back(std::move(face));
+    }
+}
+
+/// Whether the building seems to end at the face: behind it lies neither floor nor ceiling, as it
+/// does behind furniture, nor a wall.
+bool FaceFinder::is_last(const WallFace& face) const {
+    constexpr double min_share = 0.8;
+    std::size_t num_open = 0;
+    for (const std::uint32_t voxel : face.voxels) {
+        const Vector3d point = sample_.cloud.positions[voxel].cast<double>();
+        for (double depth = 2.5 * plan_.cell_size(); depth <= max_furniture_depth;
+             depth += plan_.cell_size()) {
+            const Vector3d place = room_from_map_ * (point - depth * face.plane.normal);
+            if (!plan_.has_level_at(place.head<2>()) && !plan_.is_barrier_at(place.head<2>()))
+                continue;
+            ++num_open;
+            break;
+        }
+    }
+    return static_cast<double>(num_open) <=
+           (1.0 - min_share) * static_cast<double>(face.voxels.size());
+}
+
+/// Walls reach the ceiling and are more than a beam; where that cannot be seen, they are taller
+/// than furniture and the last thing that was seen.
+bool FaceFinder::is_wall(const WallFace& face) const {
+    const PlanRoom& room = plan_.rooms[static_cast<std::size_t>(face.room)];
+    const auto ceiling = room.lowest_ceiling;
+    const double height = face.top - face.bottom;
+    if (height < settings_.min_wall_height) return false;
+    if (ceiling && face.top >= *ceiling - settings_.ceiling_reach) return true;
+    if (face.top < room.floor_height + settings_.min_free_wall_height) return false;
+    if (!ceiling && height >= settings_.min_free_wall_height) return true;
+    return face.area >= min_closing_area && is_last(face);
+}
+
+/// A leaf or a pane in the wall, or the front of what stands before it: parallel, within the wall's
+/// extent, and lower.
+bool FaceFinder::belongs_to(const WallFace& face, const WallFace& wall) const {
+    if (face.room != wall.room || face.top > wall.top - min_clearance) return false;
+    if (face.plane.normal.dot(wall.plane.normal) < std::cos(radians(15.0))) return false;
+    const Vector3d middle =
+        0.5 * (face.start + face.end) * face.along + face.plane.offset * face.plane.normal;
+    const double before = wall.plane.signed_distance(middle);
+    if (before < -max_inset || before > max_furniture_depth) return false;
+    const double center = middle.dot(wall.along);
+    const double half = 0.5 * face.width();
+    const double overlap = std::min(center + half, wall.end) - std::max(center - half, wall.start);
+    return overlap >= 0.6 * face.width();
+}
+
+std::vector<WallFace> FaceFinder::take() {
+    std::stable_sort(faces_.begin(), faces_.end(),
+                     [](const WallFace& a, const WallFace& b) { return a.area > b.area; });
+    std::vector<WallFace> kept;
+    for (const WallFace& face : faces_) {
+        const bool has_wall = std::any_of(faces_.begin(), faces_.end(), [&](const WallFace& wall) {
+            return belongs_to(face, wall);
+        });
+        if (!has_wall) kept.push_back(face);
+    }
+    return kept;
+}
+
+/// A line of the plan.
+struct PlanLine {
+    Vector2d point;
+    Vector2d direction;
+
+    Vector2d foot(const Vector2d& place) const {
+        return point + direction.dot(place - point) * direction;
+    }
+};
+
+std::optional<Vector2d> meeting_point(const PlanLine& a, const PlanLine& b) {
+    const double sine = cross(a.direction, b.direction);
+    if (std::abs(sine) < std::sin(radians(20.0))) return std::nullopt;
+    return a.point + cross(b.point - a.point, b.direction) / sine * a.direction;
+}
+
+}  // namespace
+
+std::vector<WallFace> find_wall_faces(const SurfaceSample& sample,
+                                      std::span<const PlanarPatch> patches,
+                                      std::span<const UprightSurface> surfaces,
+                                      const FloorPlan& plan, const Eigen::Matrix3d& room_from_map,
+                                      const RoomSurfacesSettings& settings) {
+    FaceFinder finder(sample, patches, plan, room_from_map, settings);
+    for (const UprightSurface& surface : surfaces)
+        finder.add(surface);
+    return finder.take();
+}
+
+std::vector<Vector2d> outline_between_walls(std::span<const Vector2d> outline,
+                                            std::span<const WallFace> faces, std::int32_t room,
+                                            const Eigen::Matrix3d& room_from_map) {
+    constexpr double reach = 0.2;
+    const auto flat = [&](const Vector3d& vector) -> Vector2d {
+        return (room_from_map * vector).head<2>();
+    };
+    struct Edge {
+        PlanLine line;
+        const WallFace* face;
+        Vector2d start;
+        bool is_dent = false;
+    };
+    std::vector<Edge> edges;
+    for (std::size_t i = 0; i < outline.size(); ++i) {
+        const Vector2d& a = outline[i];
+        const Vector2d& b = outline[(i + 1) % outline.size()];
+        const Vector2d direction = (b - a).normalized();
+        Edge edge{{a, direction}, nullptr, a};
+        double nearest = reach;
+        for (const WallFace& face : faces) {
+            const Vector2d along = flat(face.along);
+            if (face.room != room || std::abs(along.dot(direction)) < std::cos(radians(15.0)))
+                continue;
+            const PlanLine line{flat(face.plane.offset * face.plane.normal), along};
+            const Vector2d middle = 0.5 * (a + b);
+            const double distance = (line.foot(middle) - middle).norm();
+            const double position = along.dot(middle);
+            if (distance > nearest || position < face.start - reach || position > face.end + reach)
+                continue;
+            nearest = distance;
+            edge.face = &face;
+            edge.line = {line.foot(a), along.dot(direction) < 0.0 ? Vector2d(-along) : along};
+        }
+        if (!edges.empty() && edge.face != nullptr && edges.back().face == edge.face) continue;
+        edges.push_back(edge);
+    }
+    while (edges.size() > 1 && edges.front().face != nullptr &&
+           edges.front().face == edges.back().face) {
+        edges.pop_back();
+    }
+    // What stands before a wall hides the strip behind it: between two edges on one wall it is
+    // the wall that counts.
+    constexpr std::size_t max_dent = 8;
+    for (std::size_t i = 0; i < edges.size(); ++i) {
+        if (edges[i].face == nullptr) continue;
+        for (std::size_t count = 1; count <= max_dent && count + 3 < edges.size(); ++count) {
+            const std::size_t next = (i + count) % edges.size();
+            if (edges[next].face == nullptr) continue;
+            if (edges[next].face != edges[i].face) break;
+            for (std::size_t k = 1; k <= count; ++k) {
+                Edge& dent = edges[(i + k) % edges.size()];
+                dent.face = edges[i].face;
+                dent.is_dent = true;
+            }
+            break;
+        }
+    }
+    std::erase_if(edges, [](const Edge& edge) { return edge.is_dent; });
+    std::vector<Vector2d> corners;
+    for (std::size_t i = 0; i < edges.size(); ++i) {
+        const Edge& before = edges[(i + edges.size() - 1) % edges.size()];
+        const Edge& after = edges[i];
+        const auto corner = meeting_point(before.line, after.line);
+        const bool is_near = corner && (*corner - after.start).norm() <= 5.0 * reach;
+        if (is_near) {
+            corners.push_back(*corner);
+        } else {
+            corners.push_back(before.line.foot(after.start));
+            corners.push_back(after.line.foot(after.start));
+        }
+    }
+    return corners;
+}
+
+}  // namespace roomscribe

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "roomscribe/interpretation/floor_plan.hpp"
+#include "roomscribe/interpretation/upright_surfaces.hpp"
+
+namespace roomscribe {
+
+/// One face of a wall in one room.
+struct WallFace {
+    std::int32_t room = no_room;
+    Plane plane;            ///< upright; the normal looks into the room
+    Eigen::Vector3d along;  ///< level, within the plane: up x normal
+    double start = 0.0;     ///< m along `along`, of what was seen
+    double end = 0.0;
+    double bottom = 0.0;  ///< m along up, of what was seen
+    double top = 0.0;
+    double area = 0.0;  ///< m2, of what was seen
+    double rms = 0.0;
+    std::vector<std::uint32_t> voxels;  ///< of the surface sample
+
+    double width() const { return end - start; }
+};
+
+/// The upright surfaces that close the rooms: where one parts the room before it from something
+/// else. What stands within a room closes nothing. Leaves, panes and other things set in a wall are
+/// part of that wall's face and no faces of their own. The largest first.
+std::vector<WallFace> find_wall_faces(const SurfaceSample& sample,
+                                      std::span<const PlanarPatch> patches,
+                                      std::span<const UprightSurface> surfaces,
+                                      const FloorPlan& plan, const Eigen::Matrix3d& room_from_map,
+                                      const RoomSurfacesSettings& settings);
+
+/// The room's outline with its edges moved onto the wall faces that they run along.
+std::vector<Eigen::Vector2d> outline_between_walls(std::span<const Eigen::Vector2d> outline,
+                                                   std::span<const WallFace> faces,
+                                                   std::int32_t room,
+                                                   const Eigen::Matrix3d& room_from_map);
+
+}  // namespace roomscribe
