@@ -46,7 +46,7 @@ class SurfaceBuilder {
           room_from_map_(upright.room_from_map),
           up_(upright.up()) {}
 
-    void add_storey(const Storey& storey, const FloorPlan& plan, std::span<const WallFace> faces);
+    void add_storey(const Storey& storey, StoreyLayout& layout);
     std::vector<RoomSurface> take_surfaces() && { return std::move(surfaces_); }
     std::vector<Room> take_rooms() && { return std::move(rooms_); }
 
@@ -206,8 +206,10 @@ void SurfaceBuilder::add_wall(const WallFace& face, const Storey& storey, const 
     surfaces_.push_back(std::move(surface));
 }
 
-void SurfaceBuilder::add_storey(const Storey& storey, const FloorPlan& plan,
-                                std::span<const WallFace> faces) {
+void SurfaceBuilder::add_storey(const Storey& storey, StoreyLayout& layout) {
+    const FloorPlan& plan = layout.plan;
+    const std::span<const WallFace> faces = layout.faces;
+    layout.wall_of_face.resize(faces.size());
     std::vector<Level> floors = storey.other_floors;
     if (storey.floor) floors.push_back(*storey.floor);
     auto floor_pieces = pieces_by_room(floors, plan);
@@ -227,9 +229,11 @@ void SurfaceBuilder::add_storey(const Storey& storey, const FloorPlan& plan,
         Room room;
         room.id = fmt::format("room-{}", rooms_.size() + 1);
         add_pieces(number, room.id, outline);
-        for (const WallFace& face : faces) {
-            if (face.room != number) continue;
-            add_wall(face, storey, room.id, seen.ceiling_height);
+        layout.room_ids.push_back(room.id);
+        for (std::size_t f = 0; f < faces.size(); ++f) {
+            if (faces[f].room != number) continue;
+            layout.wall_of_face[f] = surfaces_.size();
+            add_wall(faces[f], storey, room.id, seen.ceiling_height);
             room.walls.push_back(surfaces_.back().component.id);
         }
         const double highest =
@@ -243,10 +247,6 @@ void SurfaceBuilder::add_storey(const Storey& storey, const FloorPlan& plan,
                                       Eigen::Vector3d(corner.x(), corner.y(), seen.floor_height));
         }
         rooms_.push_back(std::move(room));
-    }
-    if (plan.rooms.empty()) {
-        for (const WallFace& face : faces)
-            add_wall(face, storey, "", storey.ceiling_height());
     }
     for (const std::uint32_t patch : storey.sloping_ceilings)
         add_sloping_ceiling(patch, storey);
@@ -338,11 +338,14 @@ RoomSurfaces find_room_surfaces(const ScanMap& map, const SurfaceSample& sample,
         const double from = i == 0 ? -infinity : storeys[i].floor->height;
         const double to = i + 1 == storeys.size() ? infinity : storeys[i + 1].floor->height;
         const auto surfaces = find_upright_surfaces(sample, patches, up, from, to, settings);
-        const FloorPlan plan = draw_floor_plan(map, sample, patches, upright.room_from_map,
-                                               storeys[i], surfaces, context);
-        const std::vector<WallFace> faces =
-            find_wall_faces(sample, patches, surfaces, plan, upright.room_from_map, settings);
-        builder.add_storey(storeys[i], plan, faces);
+        StoreyLayout layout;
+        layout.plan = draw_floor_plan(map, sample, patches, upright.room_from_map, storeys[i],
+                                      surfaces, context);
+        layout.faces = find_wall_faces(sample, patches, surfaces, layout.plan,
+                                       upright.room_from_map, settings);
+        if (!layout.plan.rooms.empty()) layout.floor_height = layout.plan.rooms[0].floor_height;
+        builder.add_storey(storeys[i], layout);
+        result.storeys.push_back(std::move(layout));
     }
     result.rooms = std::move(builder).take_rooms();
     result.surfaces = std::move(builder).take_surfaces();

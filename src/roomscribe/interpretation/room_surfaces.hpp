@@ -3,12 +3,15 @@
 
 #include <cstdint>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "roomscribe/core/context.hpp"
-#include "roomscribe/core/settings.hpp"
 #include "roomscribe/geometry/transform.hpp"
+#include "roomscribe/interpretation/floor_plan.hpp"
+#include "roomscribe/interpretation/room_surfaces_settings.hpp"
 #include "roomscribe/interpretation/upright.hpp"
+#include "roomscribe/interpretation/wall_faces.hpp"
 #include "roomscribe/model/scan.hpp"
 #include "roomscribe/model/scene.hpp"
 #include "roomscribe/structure/planar_patch.hpp"
@@ -23,66 +26,22 @@ struct RoomSurface {
     std::vector<std::uint32_t> voxels;
 };
 
+/// A storey's plan and the faces of its walls.
+struct StoreyLayout {
+    FloorPlan plan;
+    std::vector<WallFace> faces;
+    std::vector<std::size_t> wall_of_face;  ///< numbers in RoomSurfaces::surfaces
+    std::vector<std::string> room_ids;      ///< of the plan's rooms
+    double floor_height = 0.0;              ///< m along up
+};
+
 struct RoomSurfaces {
     /// Map frame -> room frame: z up, the lowest floor at z = 0 (the lowest surface, where no floor
     /// was seen), x and y along the walls, the surfaces' bounding box starting at x = y = 0.
     Transform room_from_map = Transform::Identity();
     std::vector<RoomSurface> surfaces;  ///< floors, ceilings, walls
     std::vector<Room> rooms;
-};
-
-struct RoomSurfacesSettings {
-    double level_tolerance = 0.08;
-    double min_room_height = 2.0;
-    double ceiling_reach = 0.35;
-    double min_wall_height = 0.9;
-    double min_free_wall_height = 1.5;
-    double max_gap = 2.5;
-
-    void visit(SettingVisitor& visitor) {
-        visitor(level_tolerance,
-                {.name = "level_tolerance",
-                 .unit = "m",
-                 .min = 0.0,
-                 .max = 1.0,
-                 .doc = "Level surfaces whose heights differ by no more are one floor "
-                        "or ceiling: half a stair's rise."});
-        visitor(min_room_height, {.name = "min_room_height",
-                                  .unit = "m",
-                                  .min = 0.5,
-                                  .max = 10.0,
-                                  .doc = "Ceilings are at least so high above their floor."});
-        visitor(
-            ceiling_reach,
-            {.name = "ceiling_reach",
-             .unit = "m",
-             .min = 0.0,
-             .max = 10.0,
-             .doc = "A wall is seen to this distance from the ceiling (beams, cornices and lamps "
-                    "may hide the rest); a cupboard ends lower."});
-        visitor(min_wall_height,
-                {.name = "min_wall_height",
-                 .unit = "m",
-                 .min = 0.0,
-                 .max = 10.0,
-                 .doc = "Least height seen of a wall that reaches the ceiling: more than "
-                        "a beam is deep."});
-        visitor(
-            min_free_wall_height,
-            {.name = "min_free_wall_height",
-             .unit = "m",
-             .min = 0.0,
-             .max = 10.0,
-             .doc = "Least height seen of a wall where no ceiling was seen: more than a desk or "
-                    "a kitchen base unit with its back panel."});
-        visitor(max_gap,
-                {.name = "max_gap",
-                 .unit = "m",
-                 .min = 0.0,
-                 .max = 100.0,
-                 .doc = "Coplanar pieces further apart are different walls: the width of a "
-                        "double door or a large window."});
-    }
+    std::vector<StoreyLayout> storeys;
 };
 
 /// Rooms with their floors, ceilings and walls, by the paper's pass-through along z (section 4.3)

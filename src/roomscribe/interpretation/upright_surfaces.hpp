@@ -6,7 +6,9 @@
 #include <vector>
 
 #include "roomscribe/interpretation/level_surfaces.hpp"
-#include "roomscribe/interpretation/room_surfaces.hpp"
+#include "roomscribe/interpretation/room_surfaces_settings.hpp"
+#include "roomscribe/structure/planar_patch.hpp"
+#include "roomscribe/structure/surface_sample.hpp"
 
 namespace roomscribe {
 

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "roomscribe/pipeline/reconstruct.hpp"
 
+#include <algorithm>
+#include <iterator>
 #include <utility>
 
+#include "roomscribe/interpretation/wall_openings.hpp"
 #include "roomscribe/structure/planar_surfaces.hpp"
 #include "roomscribe/structure/plane_hough.hpp"
 #include "roomscribe/structure/plane_ransac.hpp"
@@ -101,7 +104,10 @@ void interpret_map(Reconstruction& reconstruction, const PipelineSettings& setti
     finish("upright", 0.8);
     RoomSurfaces surfaces = find_room_surfaces(map, sample, patches, upright,
                                                settings.interpretation.surfaces, context);
-    finish("floor, ceiling, walls", 0.9);
+    finish("floor, ceiling, walls", 0.85);
+    Openings openings = find_openings(map, sample, patches, surfaces, upright.room_from_map,
+                                      statistics.point_spacing, context);
+    finish("doors, windows", 0.9);
     reconstruction.labels =
         label_points(map.cloud, sample, patches, surfaces, settings.interpretation.labels, context);
     finish("point labels", 1.0);
@@ -111,6 +117,8 @@ void interpret_map(Reconstruction& reconstruction, const PipelineSettings& setti
     for (RoomSurface& surface : surfaces.surfaces) {
         reconstruction.scene.components.push_back(std::move(surface.component));
     }
+    std::move(openings.components.begin(), openings.components.end(),
+              std::back_inserter(reconstruction.scene.components));
     add_derived_values(reconstruction.derived_values, statistics, sample, settings.structure);
 }
 

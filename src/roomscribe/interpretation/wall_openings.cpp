@@ -1,0 +1,641 @@
+// SPDX-License-Identifier: MIT
+#include "roomscribe/interpretation/wall_openings.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <utility>
+
+#include <Eigen/Geometry>
+#include <fmt/format.h>
+
+#include "roomscribe/core/parallel.hpp"
+#include "roomscribe/core/quantile.hpp"
+#include "roomscribe/core/units.hpp"
+
+namespace roomscribe {
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+// m. Leaves have 0.61 to 1.11 m by 1.985 or 2.11 m (DIN 18101), double ones twice the width; old
+// and narrow ones are a little off these.
+constexpr double min_door_width = 0.55;
+constexpr double max_door_width = 2.3;
+constexpr double min_door_height = 1.8;
+constexpr double max_door_height = 2.5;
+constexpr double max_leaf_width = 1.3;
+/// m. Thresholds, skirtings and what lies on the floor.
+constexpr double floor_reach = 0.25;
+/// m. Hatches and vents are smaller than a window.
+constexpr double min_window_side = 0.35;
+/// m. Architraves are 44 to 95 mm wide.
+constexpr double casing_width = 0.06;
+/// m. uPVC frame and sash together show 100 to 120 mm, fixed lights 50 to 70 mm.
+constexpr double usual_window_frame = 0.08;
+
+/// A rectangle of cells: columns [left, right), rows [low, high).
+struct CellRectangle {
+    int left = 0;
+    int right = 0;
+    int low = 0;
+    int high = 0;
+    double sum = 0.0;
+};
+
+/// The rectangle with the largest sum of weights, the smallest of equal ones: Kadane's run over all
+/// pairs of rows.
+CellRectangle heaviest_rectangle(std::span<const float> weights, int num_columns, int num_rows) {
+    CellRectangle best;
+    std::vector<double> column_sums(static_cast<std::size_t>(num_columns));
+    for (int low = 0; low < num_rows; ++low) {
+        std::fill(column_sums.begin(), column_sums.end(), 0.0);
+        for (int row = low; row < num_rows; ++row) {
+            double run = 0.0;
+            int start = 0;
+            for (int column = 0; column < num_columns; ++column) {
+                double& sum = column_sums[static_cast<std::size_t>(column)];
+                sum += static_cast<double>(
+                    weights[static_cast<std::size_t>(row) * static_cast<std::size_t>(num_columns) +
+                            static_cast<std::size_t>(column)]);
+                if (run <= 0.0) {
+                    run = 0.0;
+                    start = column;
+                }
+                run += sum;
+                if (run > best.sum + 1e-9) best = {start, column + 1, low, row + 1, run};
+            }
+        }
+    }
+    return best;
+}
+
+/// The holes of one wall's face.
+class HoleFinder {
+  public:
+    explicit HoleFinder(const WallRelief& relief) : relief_(relief) {}
+
+    std::vector<CellRectangle> run() {
+        find_groups();
+        std::vector<CellRectangle> holes;
+        for (std::int32_t group = 0; group < num_groups_; ++group) {
+            if (sizes_[static_cast<std::size_t>(group)] < min_cells()) continue;
+            const CellRectangle hole =
+                heaviest_rectangle(weights_of(group), relief_.num_columns, relief_.num_rows);
+            if (hole.sum >= min_cells()) holes.push_back(hole);
+        }
+        return holes;
+    }
+
+  private:
+    /// Half of the smallest window.
+    double min_cells() const {
+        return 0.5 * min_window_side * min_window_side / (relief_.cell_size * relief_.cell_size);
+    }
+    static bool is_open(const ReliefCell& cell) {
+        // A ray that grazes the rim of a hole may end on either side.
+        return cell.open() >= 2 && cell.open() > 2 * cell.surface;
+    }
+    static bool is_wall(const ReliefCell& cell) { return cell.surface > cell.open(); }
+
+    /// Groups of open cells; cells that nothing was seen of do not part them.
+    void find_groups() {
+        group_.assign(relief_.cells.size(), -1);
+        constexpr int reach = 2;
+        std::vector<std::size_t> stack;
+        const auto width = static_cast<std::size_t>(relief_.num_columns);
+        for (std::size_t seed = 0; seed < group_.size(); ++seed) {
+            if (group_[seed] >= 0 || !is_open(relief_.cells[seed])) continue;
+            sizes_.push_back(0);
+            group_[seed] = num_groups_;
+            stack.push_back(seed);
+            while (!stack.empty()) {
+                const std::size_t cell = stack.back();
+                stack.pop_back();
+                ++sizes_.back();
+                const int column = static_cast<int>(cell % width);
+                const int row = static_cast<int>(cell / width);
+                for (const auto& [dx, dy] :
+                     {std::pair(1, 0), std::pair(-1, 0), std::pair(0, 1), std::pair(0, -1)}) {
+                    for (int step = 1; step <= reach; ++step) {
+                        const int x = column + step * dx;
+                        const int y = row + step * dy;
+                        if (x < 0 || y < 0 || x >= relief_.num_columns || y >= relief_.num_rows)
+                            break;
+                        const std::size_t next = relief_.index(x, y);
+                        if (is_wall(relief_.cells[next])) break;
+                        if (!is_open(relief_.cells[next]) || group_[next] >= 0) continue;
+                        group_[next] = num_groups_;
+                        stack.push_back(next);
+                    }
+                }
+            }
+            ++num_groups_;
+        }
+    }
+
+    std::vector<float> weights_of(std::int32_t group) const {
+        std::vector<float> weights(relief_.cells.size(), 0.0F);
+        for (std::size_t i = 0; i < weights.size(); ++i) {
+            if (group_[i] == group) {
+                weights[i] = 1.0F;
+            } else if (is_wall(relief_.cells[i])) {
+                weights[i] = -1.5F;
+            }
+        }
+        return weights;
+    }
+
+    const WallRelief& relief_;
+    std::vector<std::int32_t> group_;
+    std::vector<int> sizes_;
+    std::int32_t num_groups_ = 0;
+};
+
+/// What the cells of a hole tell.
+struct HoleEvidence {
+    double seen = 0.0;           ///< share of the cells that are open
+    double hidden = 0.0;         ///< share of the cells that only hidden rays were aimed at
+    double opaque = 0.0;         ///< share of the open rays that ended in the hole
+    double through_share = 0.0;  ///< share of the open cells that most rays went through
+    double depth = 0.0;          ///< m, at which most of these ended
+    double at_depth = 0.0;       ///< share of them that did within a bin of it
+    double rim = 0.0;            ///< share of the seen cells around it that are wall
+};
+
+HoleEvidence look_into(const WallRelief& relief, const CellRectangle& hole) {
+    HoleEvidence evidence;
+    std::array<double, num_depth_bins> depths{};
+    double cells = 0.0;
+    double open = 0.0;
+    double hidden = 0.0;
+    double through_cells = 0.0;
+    double recess = 0.0;
+    double through = 0.0;
+    for (int row = hole.low; row < hole.high; ++row) {
+        for (int column = hole.left; column < hole.right; ++column) {
+            const ReliefCell& cell = relief.at(column, row);
+            ++cells;
+            if (cell.open() > cell.surface) {
+                // Every cell counts alike, however many rays it met.
+                ++open;
+                const double weight = 1.0 / cell.open();
+                recess += weight * cell.recess;
+                through += weight * cell.through;
+                through_cells += cell.through > cell.recess ? 1.0 : 0.0;
+                const std::uint16_t* counts =
+                    relief.depths.data() + relief.index(column, row) * num_depth_bins;
+                for (std::size_t bin = 0; bin < num_depth_bins; ++bin)
+                    depths[bin] += weight * counts[bin];
+            } else if (cell.surface == 0 && cell.hidden > 0) {
+                ++hidden;
+            }
+        }
+    }
+    evidence.seen = open / cells;
+    evidence.hidden = hidden / cells;
+    evidence.opaque = recess / std::max(recess + through, 1e-9);
+    evidence.through_share = through_cells / std::max(open, 1.0);
+    const auto deepest = std::max_element(depths.begin(), depths.end()) - depths.begin();
+    evidence.depth = (static_cast<double>(deepest) + 0.5) * depth_bin;
+    double near = 0.0;
+    for (std::ptrdiff_t bin = std::max<std::ptrdiff_t>(0, deepest - 1);
+         bin <= std::min<std::ptrdiff_t>(num_depth_bins - 1, deepest + 1); ++bin) {
+        near += depths[static_cast<std::size_t>(bin)];
+    }
+    evidence.at_depth = near / std::max(recess, 1e-9);
+
+    double rim_wall = 0.0;
+    double rim_seen = 0.0;
+    const auto look = [&](int column, int row) {
+        if (column < 0 || row < 0 || column >= relief.num_columns || row >= relief.num_rows) return;
+        const ReliefCell& cell = relief.at(column, row);
+        if (cell.surface + cell.open() == 0) return;
+        ++rim_seen;
+        rim_wall += cell.surface >= cell.open() ? 1.0 : 0.0;
+    };
+    for (int gap = 1; gap <= 2; ++gap) {
+        for (int row = hole.low; row < hole.high; ++row) {
+            look(hole.left - 1 - gap, row);
+            look(hole.right + gap, row);
+        }
+        for (int column = hole.left; column < hole.right; ++column) {
+            look(column, hole.high + gap);
+            look(column, hole.low - 1 - gap);
+        }
+    }
+    evidence.rim = rim_wall / std::max(rim_seen, 1.0);
+    return evidence;
+}
+
+/// Width of the frame within a window's hole: from its sides inwards to where rays pass.
+double measure_frame(const WallRelief& relief, const CellRectangle& hole) {
+    const auto is_pane = [&](int column) {
+        int through = 0;
+        int seen = 0;
+        for (int row = hole.low; row < hole.high; ++row) {
+            const ReliefCell& cell = relief.at(column, row);
+            if (cell.open() == 0) continue;
+            ++seen;
+            through += cell.through > cell.recess ? 1 : 0;
+        }
+        return seen > 0 && 2 * through > seen;
+    };
+    const int middle = (hole.left + hole.right) / 2;
+    int left = hole.left;
+    while (left < middle && !is_pane(left))
+        ++left;
+    int right = hole.right - 1;
+    while (right > middle && !is_pane(right))
+        --right;
+    if (left >= middle || right <= middle) return usual_window_frame;
+    const double width =
+        0.5 * relief.cell_size * static_cast<double>(left - hole.left + hole.right - 1 - right);
+    return std::clamp(width, 0.04, 0.16);
+}
+
+class OpeningFinder {
+  public:
+    OpeningFinder(const ScanMap& map, const SurfaceSample& sample,
+                  std::span<const PlanarPatch> patches, const RoomSurfaces& surfaces,
+                  const Eigen::Matrix3d& room_from_map, double point_spacing)
+        : map_(map),
+          sample_(sample),
+          patches_(patches),
+          surfaces_(surfaces),
+          room_from_map_(room_from_map),
+          up_(room_from_map.row(2).transpose()),
+          // Two points to a cell and side, and no finer than frames are wide.
+          cell_size_(std::clamp(2.0 * point_spacing, 0.04, 0.12)) {}
+
+    std::vector<WallOpening> look_at(std::size_t storey, std::size_t face) const;
+
+  private:
+    const StoreyLayout& layout(std::size_t storey) const { return surfaces_.storeys[storey]; }
+    std::optional<WallOpening> judge(std::size_t storey, std::size_t face, const WallRelief& relief,
+                                     const CellRectangle& hole) const;
+    std::int32_t room_behind(const StoreyLayout& layout, const WallFace& face,
+                             const WallRectangle& hole) const;
+    bool is_indoors_behind(const StoreyLayout& layout, const WallFace& face,
+                           const WallRectangle& hole) const;
+    std::vector<std::uint32_t> find_open_leaf(const WallFace& face,
+                                              const WallRectangle& hole) const;
+    void add_flat_leaves(std::size_t storey, std::size_t face,
+                         std::vector<WallOpening>& openings) const;
+    Vector3d place(const WallFace& face, double along, double up) const {
+        return face.plane.offset * face.plane.normal + along * face.along + up * up_;
+    }
+
+    const ScanMap& map_;
+    const SurfaceSample& sample_;
+    std::span<const PlanarPatch> patches_;
+    const RoomSurfaces& surfaces_;
+    Eigen::Matrix3d room_from_map_;
+    Vector3d up_;
+    double cell_size_;
+};
+
+std::int32_t OpeningFinder::room_behind(const StoreyLayout& layout, const WallFace& face,
+                                        const WallRectangle& hole) const {
+    constexpr double max_thickness = 0.8;
+    const Vector3d middle = place(face, 0.5 * (hole.start + hole.end), hole.bottom);
+    for (double depth = 0.1; depth <= max_thickness; depth += 0.05) {
+        const Vector3d point = room_from_map_ * (middle - depth * face.plane.normal);
+        const std::int32_t room = layout.plan.room_at(point.head<2>());
+        if (room != no_room && room != face.room) return room;
+    }
+    return no_room;
+}
+
+/// Whether floor or ceiling go on behind the hole.
+bool OpeningFinder::is_indoors_behind(const StoreyLayout& layout, const WallFace& face,
+                                      const WallRectangle& hole) const {
+    for (double share : {0.25, 0.5, 0.75}) {
+        const Vector3d foot = place(face, hole.start + share * hole.width(), hole.bottom);
+        for (double depth = 0.2; depth <= 1.5; depth += 0.1) {
+            const Vector3d point = room_from_map_ * (foot - depth * face.plane.normal);
+            if (layout.plan.has_level_at(point.head<2>())) return true;
+        }
+    }
+    return false;
+}
+
+/// The patches of a leaf that stands open: upright, as wide and high as the hole, with one upright
+/// edge at a side of it.
+std::vector<std::uint32_t> OpeningFinder::find_open_leaf(const WallFace& face,
+                                                         const WallRectangle& hole) const {
+    std::vector<std::uint32_t> leaf;
+    for (std::uint32_t number = 0; number < patches_.size(); ++number) {
+        const PlanarPatch& patch = patches_[number];
+        if (std::abs(patch.plane.normal.dot(up_)) > std::sin(radians(8.0))) continue;
+        const Vector3d middle = place(face, 0.5 * (hole.start + hole.end), patch.centroid.dot(up_));
+        if ((patch.centroid - middle).norm() > hole.width() + 0.3) continue;
+        if (std::abs(patch.plane.normal.dot(face.plane.normal)) > std::cos(radians(4.0)) &&
+            std::abs(face.plane.signed_distance(patch.centroid)) < 0.15) {
+            continue;
+        }
+        double low = std::numeric_limits<double>::infinity();
+        double high = -low;
+        double start = low;
+        double end = -low;
+        const Vector3d along = up_.cross(patch.plane.normal).normalized();
+        for (const std::uint32_t voxel : patch.points) {
+            const Vector3d point = sample_.cloud.positions[voxel].cast<double>();
+            low = std::min(low, point.dot(up_));
+            high = std::max(high, point.dot(up_));
+            start = std::min(start, point.dot(along));
+            end = std::max(end, point.dot(along));
+        }
+        if (high > hole.top + 0.12 || high < hole.top - 0.4) continue;
+        if (end - start > hole.width() + 0.15 || high - low < 0.5) continue;
+        if (end - start < 0.4 * std::min(hole.width(), max_leaf_width)) continue;
+        // One end of the leaf is at the hinge.
+        const double across = patch.plane.normal.dot(patch.centroid);
+        bool is_hinged = false;
+        for (const double position : {start, end}) {
+            const Vector3d edge = position * along + across * patch.plane.normal;
+            for (const double side : {hole.start, hole.end}) {
+                const Vector3d jamb = place(face, side, 0.0);
+                const Vector3d offset = edge - jamb;
+                is_hinged = is_hinged || (offset - offset.dot(up_) * up_).norm() <= 0.25;
+            }
+        }
+        if (is_hinged) leaf.push_back(number);
+    }
+    return leaf;
+}
+
+std::optional<WallOpening> OpeningFinder::judge(std::size_t storey, std::size_t number,
+                                                const WallRelief& relief,
+                                                const CellRectangle& cells) const {
+    const StoreyLayout& rooms = layout(storey);
+    const WallFace& face = rooms.faces[number];
+    WallOpening opening;
+    opening.storey = storey;
+    opening.face = number;
+    opening.hole = {relief.start + cells.left * cell_size_, relief.start + cells.right * cell_size_,
+                    relief.bottom + cells.low * cell_size_,
+                    relief.bottom + cells.high * cell_size_};
+    WallRectangle& hole = opening.hole;
+    const HoleEvidence evidence = look_into(relief, cells);
+    opening.coverage = evidence.seen;
+    opening.hidden = evidence.hidden;
+    if (evidence.seen < 0.4 || evidence.rim < 0.4) return std::nullopt;
+    opening.room_behind = room_behind(rooms, face, hole);
+    const double above_floor = hole.bottom - rooms.floor_height;
+    const bool is_closed = evidence.opaque >= 0.6 && evidence.at_depth >= 0.6;
+    const bool is_door_size = hole.width() >= min_door_width && hole.width() <= max_door_width &&
+                              hole.top - rooms.floor_height >= min_door_height &&
+                              hole.top - rooms.floor_height <= max_door_height;
+    if (above_floor <= floor_reach && is_door_size) {
+        const bool is_indoors =
+            opening.room_behind != no_room || is_indoors_behind(rooms, face, hole);
+        hole.bottom = rooms.floor_height;
+        opening.frame_width = casing_width;
+        if (is_closed) {
+            opening.depth = evidence.depth;
+            opening.confidence = 0.9;
+            return opening;
+        }
+        if (!is_indoors && relief.has_rays && evidence.through_share >= 0.3) {
+            opening.type = OpeningType::window;
+            opening.depth = evidence.depth;
+            opening.frame_width = measure_frame(relief, cells);
+            opening.confidence = 0.7;
+            return opening;
+        }
+        opening.leaf_patches = find_open_leaf(face, hole);
+        opening.is_open = true;
+        opening.depth = 0.05;
+        opening.confidence = opening.leaf_patches.empty() ? 0.6 : 0.85;
+        if (opening.leaf_patches.empty() && hole.width() > max_leaf_width)
+            opening.type = OpeningType::passage;
+        return opening;
+    }
+    if (hole.width() < min_window_side || hole.height() < min_window_side) return std::nullopt;
+    if (above_floor < 0.3 && hole.height() < 1.5) return std::nullopt;
+    // A niche has a back.
+    if (is_closed && evidence.through_share < 0.1) return std::nullopt;
+    if (relief.has_rays && evidence.through_share < 0.1) return std::nullopt;
+    opening.type = OpeningType::window;
+    opening.depth = std::min(evidence.depth, 0.3);
+    opening.frame_width = measure_frame(relief, cells);
+    opening.confidence = 0.6 + 0.3 * evidence.rim;
+    return opening;
+}
+
+/// Closed leaves in the plane of their wall: patches of a door's size that stand on the floor.
+void OpeningFinder::add_flat_leaves(std::size_t storey, std::size_t number,
+                                    std::vector<WallOpening>& openings) const {
+    const StoreyLayout& rooms = layout(storey);
+    const WallFace& face = rooms.faces[number];
+    constexpr double max_depth = 0.2;
+    for (const PlanarPatch& patch : patches_) {
+        if (std::abs(patch.plane.normal.dot(face.plane.normal)) < std::cos(radians(8.0))) continue;
+        const double depth = -face.plane.signed_distance(patch.centroid);
+        if (depth > max_depth || depth < -0.04 || patch.area > 0.8 * face.area) continue;
+        std::vector<double> alongs;
+        std::vector<double> heights;
+        for (const std::uint32_t voxel : patch.points) {
+            const Vector3d point = sample_.cloud.positions[voxel].cast<double>();
+            alongs.push_back(point.dot(face.along));
+            heights.push_back(point.dot(up_));
+        }
+        const double half = 0.5 * sample_.spacing;
+        WallRectangle hole{quantile(alongs, 0.01) - half, quantile(alongs, 0.99) + half,
+                           quantile(heights, 0.01) - half, quantile(heights, 0.99) + half};
+        const double above_floor = hole.bottom - rooms.floor_height;
+        const double top = hole.top - rooms.floor_height;
+        if (above_floor > floor_reach || top < min_door_height || top > 2.3) continue;
+        if (hole.width() < min_door_width || hole.width() > max_door_width) continue;
+        if (hole.start < face.start - 0.1 || hole.end > face.end + 0.1) continue;
+        if (patch.area < 0.6 * hole.area()) continue;
+        hole.bottom = rooms.floor_height;
+        const bool is_known =
+            std::any_of(openings.begin(), openings.end(), [&](const WallOpening& opening) {
+                const double overlap =
+                    std::min(hole.end, opening.hole.end) - std::max(hole.start, opening.hole.start);
+                return overlap > 0.3 * std::min(hole.width(), opening.hole.width());
+            });
+        if (is_known) continue;
+        WallOpening opening;
+        opening.storey = storey;
+        opening.face = number;
+        opening.hole = hole;
+        opening.depth = std::max(0.0, depth);
+        opening.frame_width = casing_width;
+        opening.room_behind = room_behind(rooms, face, hole);
+        opening.coverage = std::min(1.0, patch.area / hole.area());
+        opening.confidence = 0.75;
+        openings.push_back(std::move(opening));
+    }
+}
+
+std::vector<WallOpening> OpeningFinder::look_at(std::size_t storey, std::size_t number) const {
+    const StoreyLayout& rooms = layout(storey);
+    const WallFace& face = rooms.faces[number];
+    const auto& room = rooms.plan.rooms[static_cast<std::size_t>(face.room)];
+    const double top = room.ceiling_height.value_or(face.top);
+    const double tolerance = std::max(sample_.tolerance, 2.0 * face.rms);
+    const WallRelief relief = measure_wall_relief(map_, face, up_, rooms.floor_height, top,
+                                                  std::min(tolerance, 0.06), cell_size_);
+    std::vector<WallOpening> openings;
+    for (const CellRectangle& hole : HoleFinder(relief).run()) {
+        if (auto opening = judge(storey, number, relief, hole))
+            openings.push_back(std::move(*opening));
+    }
+    add_flat_leaves(storey, number, openings);
+    return openings;
+}
+
+/// Whether two openings are the two sides of one.
+bool is_same(const WallOpening& a, const WallOpening& b, const RoomSurfaces& surfaces) {
+    constexpr double max_thickness = 0.6;
+    if (a.storey != b.storey || a.face == b.face) return false;
+    const WallFace& face = surfaces.storeys[a.storey].faces[a.face];
+    const WallFace& other = surfaces.storeys[b.storey].faces[b.face];
+    if (std::abs(face.plane.normal.dot(other.plane.normal)) < std::cos(radians(15.0))) return false;
+    const Vector3d middle =
+        other.plane.offset * other.plane.normal + 0.5 * (b.hole.start + b.hole.end) * other.along;
+    if (std::abs(face.plane.signed_distance(middle)) > max_thickness) return false;
+    const double center = middle.dot(face.along);
+    const double half = 0.5 * b.hole.width();
+    const double overlap =
+        std::min(center + half, a.hole.end) - std::max(center - half, a.hole.start);
+    const double upright =
+        std::min(a.hole.top, b.hole.top) - std::max(a.hole.bottom, b.hole.bottom);
+    return overlap > 0.4 * std::min(a.hole.width(), b.hole.width()) &&
+           upright > 0.4 * std::min(a.hole.height(), b.hole.height());
+}
+
+/// Which of two sides says more: a leaf that was seen, then the one that was seen better.
+double merit(const WallOpening& opening) {
+    return opening.confidence + 0.1 * opening.coverage;
+}
+
+/// The components of the openings, and the rooms that they lead to.
+class ComponentBuilder {
+  public:
+    ComponentBuilder(RoomSurfaces& surfaces, const Vector3d& up) : surfaces_(surfaces), up_(up) {
+        for (const RoomSurface& surface : surfaces.surfaces)
+            next_instance_ = std::max(next_instance_, surface.component.instance + 1);
+    }
+
+    void add(WallOpening& opening, std::vector<Component>& components) {
+        const StoreyLayout& layout = surfaces_.storeys[opening.storey];
+        const WallFace& face = layout.faces[opening.face];
+        const std::string wall = surfaces_.surfaces[layout.wall_of_face[opening.face]].component.id;
+        const auto push = [&](Label label, const WallRectangle& rectangle, double depth) {
+            Component component;
+            component.label = label;
+            const bool is_passage = label == Label::unknown;
+            if (is_passage) component.kind = "opening";
+            component.id = fmt::format("{}-{}", is_passage ? "opening" : label_name(label),
+                                       ++counts_[static_cast<std::size_t>(label)]);
+            component.instance = next_instance_++;
+            component.parent = wall;
+            const Vector3d on_plane = (face.plane.offset - depth) * face.plane.normal;
+            const auto corner = [&](double along, double height) -> Vector3d {
+                return on_plane + along * face.along + height * up_;
+            };
+            component.polygon = {
+                corner(rectangle.start, rectangle.bottom), corner(rectangle.end, rectangle.bottom),
+                corner(rectangle.end, rectangle.top), corner(rectangle.start, rectangle.top)};
+            component.confidence = opening.confidence;
+            component.verdict = opening.confidence >= 0.5 ? Verdict::accepted : Verdict::doubtful;
+            component.evidence.coverage = opening.coverage;
+            component.evidence.occluded = opening.hidden;
+            component.evidence.rule = rule_of(opening);
+            opening.components.push_back(components.size());
+            components.push_back(std::move(component));
+        };
+        const WallRectangle& hole = opening.hole;
+        const double width = opening.frame_width;
+        switch (opening.type) {
+            case OpeningType::window:
+                push(Label::window, hole.grown(-width, -width, -width), opening.depth);
+                push(Label::window_frame, hole, std::max(0.0, opening.depth - 0.03));
+                break;
+            case OpeningType::door:
+                push(Label::door, hole, opening.depth);
+                push(Label::door_frame, hole.grown(width, 0.0, width), casing_width);
+                connect(opening, layout, components[opening.components[0]].id);
+                break;
+            case OpeningType::passage:
+                push(Label::unknown, hole, opening.depth);
+                connect(opening, layout, components[opening.components[0]].id);
+                break;
+        }
+    }
+
+  private:
+    static std::string rule_of(const WallOpening& opening) {
+        switch (opening.type) {
+            case OpeningType::window:
+                return "hole in the wall that rays pass through, above the floor";
+            case OpeningType::passage:
+                return "hole in the wall that stands on the floor, without a leaf";
+            case OpeningType::door:
+                break;
+        }
+        if (!opening.is_open) return "leaf of a door's size in the wall, on the floor";
+        return opening.leaf_patches.empty() ? "hole of a door's size in the wall, on the floor"
+                                            : "hole of a door's size in the wall and its open leaf";
+    }
+
+    void connect(const WallOpening& opening, const StoreyLayout& layout, const std::string& id) {
+        const std::int32_t before = layout.faces[opening.face].room;
+        if (before == no_room || opening.room_behind == no_room) return;
+        const std::string& here = layout.room_ids[static_cast<std::size_t>(before)];
+        const std::string& there = layout.room_ids[static_cast<std::size_t>(opening.room_behind)];
+        for (Room& room : surfaces_.rooms) {
+            if (room.id == here) room.neighbors.push_back({there, id});
+            if (room.id == there) room.neighbors.push_back({here, id});
+        }
+    }
+
+    RoomSurfaces& surfaces_;
+    Vector3d up_;
+    std::int32_t next_instance_ = 0;
+    std::array<int, num_labels> counts_{};
+};
+
+}  // namespace
+
+Openings find_openings(const ScanMap& map, const SurfaceSample& sample,
+                       std::span<const PlanarPatch> patches, RoomSurfaces& surfaces,
+                       const Eigen::Matrix3d& room_from_map, double point_spacing,
+                       const Context& context) {
+    const OpeningFinder finder(map, sample, patches, surfaces, room_from_map, point_spacing);
+    std::vector<std::pair<std::size_t, std::size_t>> jobs;
+    for (std::size_t storey = 0; storey < surfaces.storeys.size(); ++storey) {
+        for (std::size_t face = 0; face < surfaces.storeys[storey].faces.size(); ++face)
+            jobs.emplace_back(storey, face);
+    }
+    std::vector<std::vector<WallOpening>> found(jobs.size());
+    parallel_for(context, jobs.size(), 1, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i)
+            found[i] = finder.look_at(jobs[i].first, jobs[i].second);
+    });
+    std::vector<WallOpening> sides;
+    for (auto& of_face : found)
+        std::move(of_face.begin(), of_face.end(), std::back_inserter(sides));
+    std::stable_sort(sides.begin(), sides.end(), [](const WallOpening& a, const WallOpening& b) {
+        return merit(a) > merit(b);
+    });
+    Openings result;
+    for (WallOpening& side : sides) {
+        const bool is_known =
+            std::any_of(result.openings.begin(), result.openings.end(),
+                        [&](const WallOpening& known) { return is_same(known, side, surfaces); });
+        if (!is_known) result.openings.push_back(std::move(side));
+    }
+    ComponentBuilder builder(surfaces, room_from_map.row(2).transpose());
+    for (WallOpening& opening : result.openings)
+        builder.add(opening, result.components);
+    return result;
+}
+
+}  // namespace roomscribe

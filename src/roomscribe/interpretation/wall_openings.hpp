@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "roomscribe/core/context.hpp"
+#include "roomscribe/interpretation/room_surfaces.hpp"
+#include "roomscribe/interpretation/wall_relief.hpp"
+#include "roomscribe/model/scene.hpp"
+
+namespace roomscribe {
+
+/// A rectangle on a wall's face: m along the wall (as WallFace::start) and m along up.
+struct WallRectangle {
+    double start = 0.0;
+    double end = 0.0;
+    double bottom = 0.0;
+    double top = 0.0;
+
+    double width() const { return end - start; }
+    double height() const { return top - bottom; }
+    double area() const { return width() * height(); }
+    WallRectangle grown(double left_right, double below, double above) const {
+        return {start - left_right, end + left_right, bottom - below, top + above};
+    }
+};
+
+enum class OpeningType : std::uint8_t { door, passage, window };
+
+/// A hole in a wall, and what fills it.
+struct WallOpening {
+    OpeningType type = OpeningType::door;
+    std::size_t face = 0;      ///< of the storey's faces
+    std::size_t storey = 0;    ///< of RoomSurfaces::storeys
+    WallRectangle hole;        ///< a door's leaf, or a window's hole
+    double depth = 0.0;        ///< m behind the face, of the leaf or the pane
+    double frame_width = 0.0;  ///< m; around a leaf, within a window's hole; 0 for none
+    bool is_open = false;      ///< a door that stands open
+    /// Of an open door, the patches of its leaf.
+    std::vector<std::uint32_t> leaf_patches;
+    std::int32_t room_behind = no_room;
+    double coverage = 0.0;  ///< share of the hole that was seen into
+    double hidden = 0.0;    ///< share that something stands before
+    double confidence = 0.0;
+    /// Numbers of its components in Openings::components; door and window first.
+    std::vector<std::size_t> components;
+};
+
+struct Openings {
+    std::vector<WallOpening> openings;
+    std::vector<Component> components;
+};
+
+/// Doors, windows and passages with their frames, by the paper's rules of size and place (its Table
+/// 3: a door on the edge of a wall and close to the floor, a window embedded in the wall and higher
+/// up) and beyond it.
+///
+/// Each wall's face is looked at cell by cell (measure_wall_relief). Holes are the rectangles that
+/// hold the most open cells and the least wall; closed leaves that lie in their wall's plane show
+/// as planar patches of a door's size. A hole at the floor as high as a door is a door where a leaf
+/// fills it or stands open beside it, else a passage; a hole above the floor that rays passed
+/// through is a window. What opens to both sides of a wall is one opening. Instances are counted on
+/// from `surfaces`.
+Openings find_openings(const ScanMap& map, const SurfaceSample& sample,
+                       std::span<const PlanarPatch> patches, RoomSurfaces& surfaces,
+                       const Eigen::Matrix3d& room_from_map, double point_spacing,
+                       const Context& context = {});
+
+}  // namespace roomscribe

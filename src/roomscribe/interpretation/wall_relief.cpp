@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: MIT
+#include "roomscribe/interpretation/wall_relief.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace roomscribe {
+namespace {
+
+using Eigen::Vector3f;
+
+/// Points that are looked at.
+constexpr std::size_t max_points = 4'000'000;
+/// m before the face: casings and levers. What lies farther hides the wall.
+constexpr float max_relief = 0.1F;
+
+/// The face's coordinates of points, in float: m along the wall, up, and out of it.
+struct FaceFrame {
+    Vector3f along;
+    Vector3f up;
+    Vector3f normal;
+    Vector3f origin;
+
+    Vector3f operator()(const Vector3f& point) const {
+        const Vector3f offset = point - origin;
+        return {offset.dot(along), offset.dot(up), offset.dot(normal)};
+    }
+};
+
+/// `height` is out of the wall.
+void count(WallRelief& relief, float along, float above, std::uint32_t ReliefCell::*what,
+           float height = 0.0F) {
+    const auto size = static_cast<float>(relief.cell_size);
+    const float column = along / size;
+    const float row = above / size;
+    if (!(column >= 0.0F && row >= 0.0F)) return;
+    if (column >= static_cast<float>(relief.num_columns) ||
+        row >= static_cast<float>(relief.num_rows)) {
+        return;
+    }
+    const auto cell = static_cast<std::size_t>(row) * static_cast<std::size_t>(relief.num_columns) +
+                      static_cast<std::size_t>(column);
+    ++(relief.cells[cell].*what);
+    if (what != &ReliefCell::recess) return;
+    const auto bin = static_cast<std::size_t>(-height / static_cast<float>(depth_bin));
+    std::uint16_t& depth =
+        relief.depths[cell * num_depth_bins + std::min<std::size_t>(bin, num_depth_bins - 1)];
+    if (depth < std::numeric_limits<std::uint16_t>::max()) ++depth;
+}
+
+/// The points of one scanner, whose rays come from `sensor` before the face.
+void follow_rays(WallRelief& relief, const FaceFrame& frame, std::span<const Vector3f> points,
+                 std::size_t stride, const Vector3f& sensor) {
+    const Vector3f eye = frame(sensor);
+    const auto tolerance = static_cast<float>(relief.tolerance);
+    if (eye.z() <= 2.0F * tolerance) return;
+    for (std::size_t i = 0; i < points.size(); i += stride) {
+        const Vector3f point = frame(points[i]);
+        if (std::abs(point.z()) <= tolerance) {
+            count(relief, point.x(), point.y(), &ReliefCell::surface);
+            continue;
+        }
+        // Where the ray meets the plane; false for NaN.
+        const float share = eye.z() / (eye.z() - point.z());
+        if (!(share > 0.0F)) continue;
+        const float along = eye.x() + share * (point.x() - eye.x());
+        const float above = eye.y() + share * (point.y() - eye.y());
+        if (point.z() > max_relief) {
+            count(relief, along, above, &ReliefCell::hidden);
+        } else if (point.z() > 0.0F) {
+            count(relief, point.x(), point.y(), &ReliefCell::surface);
+        } else if (point.z() < -static_cast<float>(max_wall_depth)) {
+            count(relief, along, above, &ReliefCell::through);
+        } else {
+            count(relief, along, above, &ReliefCell::recess, point.z());
+        }
+    }
+}
+
+void place_points(WallRelief& relief, const FaceFrame& frame, std::span<const Vector3f> points,
+                  std::size_t stride) {
+    const auto tolerance = static_cast<float>(relief.tolerance);
+    for (std::size_t i = 0; i < points.size(); i += stride) {
+        const Vector3f point = frame(points[i]);
+        if (point.z() >= -tolerance && point.z() <= max_relief) {
+            count(relief, point.x(), point.y(), &ReliefCell::surface);
+        } else if (point.z() < -tolerance && point.z() >= -static_cast<float>(max_wall_depth)) {
+            count(relief, point.x(), point.y(), &ReliefCell::recess, point.z());
+        }
+    }
+}
+
+}  // namespace
+
+WallRelief measure_wall_relief(const ScanMap& map, const WallFace& face, const Eigen::Vector3d& up,
+                               double bottom, double top, double tolerance, double cell_size) {
+    WallRelief relief;
+    relief.cell_size = cell_size;
+    relief.start = face.start;
+    relief.bottom = bottom;
+    relief.tolerance = tolerance;
+    relief.num_columns = std::max(1, static_cast<int>(std::ceil(face.width() / cell_size)));
+    relief.num_rows = std::max(1, static_cast<int>(std::ceil((top - bottom) / cell_size)));
+    relief.cells.resize(static_cast<std::size_t>(relief.num_columns) *
+                        static_cast<std::size_t>(relief.num_rows));
+    relief.depths.resize(relief.cells.size() * num_depth_bins);
+    const Eigen::Vector3d corner =
+        face.plane.offset * face.plane.normal + face.start * face.along + bottom * up;
+    const FaceFrame frame{face.along.cast<float>(), up.cast<float>(),
+                          face.plane.normal.cast<float>(), corner.cast<float>()};
+    const std::size_t stride = map.cloud.size() / max_points + 1;
+    const std::span<const Vector3f> points = map.cloud.positions;
+    for (const MapSection& section : map.sections) {
+        const auto seen = points.subspan(section.first, section.count);
+        if (section.sensor_position) {
+            relief.has_rays = true;
+            follow_rays(relief, frame, seen, stride, section.sensor_position->cast<float>());
+        } else {
+            place_points(relief, frame, seen, stride);
+        }
+    }
+    return relief;
+}
+
+}  // namespace roomscribe

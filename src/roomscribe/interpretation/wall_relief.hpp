@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "roomscribe/interpretation/wall_faces.hpp"
+#include "roomscribe/model/scan.hpp"
+
+namespace roomscribe {
+
+/// What was seen at a place of a wall's face: how many rays ended there or went on.
+struct ReliefCell {
+    std::uint32_t surface = 0;  ///< on the face
+    std::uint32_t recess = 0;   ///< in the hole behind the face, as leaves, frames and panes lie
+    std::uint32_t through = 0;  ///< farther behind it: the ray went through the wall
+    std::uint32_t hidden = 0;   ///< before it: what lies behind was not seen
+
+    std::uint32_t open() const { return recess + through; }
+};
+
+/// m behind the face. Leaves, panes and blinds lie no deeper in their wall; what does was seen
+/// through it.
+inline constexpr double max_wall_depth = 0.45;
+inline constexpr int num_depth_bins = 18;
+inline constexpr double depth_bin = max_wall_depth / num_depth_bins;
+
+/// A wall's face in a raster: columns along the wall, rows upwards from the floor.
+struct WallRelief {
+    double cell_size = 0.0;
+    double start = 0.0;      ///< m along the face's `along`, of the first column
+    double bottom = 0.0;     ///< m along up, of the first row
+    double tolerance = 0.0;  ///< m, of points that lie on the face
+    int num_columns = 0;
+    int num_rows = 0;
+    std::vector<ReliefCell> cells;  ///< row by row
+    /// How deep the points of `recess` lie: num_depth_bins counts per cell.
+    std::vector<std::uint16_t> depths;
+    /// Rays were followed: the scanners are known. Else `through` and `hidden` mean nothing, and
+    /// what lies behind the face counts where it lies.
+    bool has_rays = false;
+
+    std::size_t index(int column, int row) const {
+        return static_cast<std::size_t>(row) * static_cast<std::size_t>(num_columns) +
+               static_cast<std::size_t>(column);
+    }
+    const ReliefCell& at(int column, int row) const { return cells[index(column, row)]; }
+};
+
+/// Follows the rays of every scanner before the face to where they meet its plane. Of very many
+/// points an even share is looked at.
+///
+/// `bottom`, `top`: m along up, between which the wall stands.
+WallRelief measure_wall_relief(const ScanMap& map, const WallFace& face, const Eigen::Vector3d& up,
+                               double bottom, double top, double tolerance, double cell_size);
+
+}  // namespace roomscribe
