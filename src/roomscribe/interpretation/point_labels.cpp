@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <string>
 
 #include "roomscribe/core/error.hpp"
@@ -154,11 +155,114 @@ CandidateTable find_candidates(const Labeller& labeller, std::size_t num_voxels)
     return table;
 }
 
+/// Tells what a point near an opening belongs to.
+class OpeningTest {
+  public:
+    OpeningTest(const WallOpening& opening, const RoomSurfaces& surfaces, const Eigen::Vector3d& up)
+        : opening_(opening) {
+        const WallFace& face = surfaces.storeys[opening.storey].faces[opening.face];
+        normal_ = face.plane.normal.cast<float>();
+        offset_ = static_cast<float>(face.plane.offset);
+        along_ = face.along.cast<float>();
+        up_ = up.cast<float>();
+        frame_ = opening.hole;
+        if (opening.type == OpeningType::window) {
+            leaf_ = frame_.grown(-opening.frame_width, -opening.frame_width, -opening.frame_width);
+        } else {
+            leaf_ = frame_;
+            frame_ = leaf_.grown(opening.frame_width, 0.0, opening.frame_width);
+        }
+    }
+
+    /// Number of the component in Openings::components, or nothing.
+    std::optional<std::size_t> component_of(const Eigen::Vector3f& point) const {
+        const float depth = offset_ - normal_.dot(point);
+        if (depth > static_cast<float>(max_wall_depth) || depth < -max_casing) return std::nullopt;
+        const double along = static_cast<double>(along_.dot(point));
+        const double above = static_cast<double>(up_.dot(point));
+        if (!is_in(frame_, along, above)) return std::nullopt;
+        if (opening_.type == OpeningType::passage) return std::nullopt;
+        const auto leaf_depth = static_cast<float>(opening_.depth);
+        if (opening_.type == OpeningType::window) {
+            // Before the frame lies the reveal, which is the wall's.
+            if (depth < 0.3F * leaf_depth) return std::nullopt;
+            return opening_.components[is_in(leaf_, along, above) ? 0 : 1];
+        }
+        if (is_in(leaf_, along, above)) {
+            const bool is_leaf = !opening_.is_open && std::abs(depth - leaf_depth) <= leaf_reach;
+            return opening_.components[is_leaf ? 0 : 1];
+        }
+        return opening_.components[1];
+    }
+
+  private:
+    static constexpr float max_casing = 0.04F;  // m out of the wall
+    static constexpr float leaf_reach = 0.06F;  // m: half of the leaf, its panels and noise
+
+    static bool is_in(const WallRectangle& rectangle, double along, double above) {
+        return along >= rectangle.start && along <= rectangle.end && above >= rectangle.bottom &&
+               above <= rectangle.top;
+    }
+
+    const WallOpening& opening_;
+    Eigen::Vector3f normal_;
+    float offset_ = 0.0F;
+    Eigen::Vector3f along_;
+    Eigen::Vector3f up_;
+    WallRectangle leaf_;
+    WallRectangle frame_;
+};
+
+/// Gives the points of doors, windows and their frames to these.
+void label_openings(const PointCloud& map, const SurfaceSample& sample,
+                    std::span<const PlanarPatch> patches, const RoomSurfaces& surfaces,
+                    const Openings& openings, PointLabels& labels, const Context& context) {
+    const Eigen::Vector3d up = surfaces.room_from_map.linear().row(2).transpose();
+    std::vector<OpeningTest> tests;
+    tests.reserve(openings.openings.size());
+    for (const WallOpening& opening : openings.openings)
+        tests.emplace_back(opening, surfaces, up);
+    // The open leaves, by voxel.
+    std::vector<std::int32_t> leaf_of_voxel(sample.cloud.size(), -1);
+    for (const WallOpening& opening : openings.openings) {
+        for (const std::uint32_t patch : opening.leaf_patches) {
+            for (const std::uint32_t voxel : patches[patch].points)
+                leaf_of_voxel[voxel] = static_cast<std::int32_t>(opening.components[0]);
+        }
+    }
+    const auto give = [&](std::size_t point, std::size_t number) {
+        const Component& component = openings.components[number];
+        labels.labels[point] = component.label;
+        labels.instances[point] = component.instance;
+        labels.confidences[point] = static_cast<float>(component.confidence);
+    };
+    parallel_for(context, map.size(), chunk, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            const std::uint32_t voxel = sample.voxel_of_point[i];
+            if (voxel == no_voxel) continue;
+            const bool is_level =
+                labels.labels[i] == Label::floor || labels.labels[i] == Label::ceiling;
+            if (is_level) continue;
+            if (leaf_of_voxel[voxel] >= 0) {
+                give(i, static_cast<std::size_t>(leaf_of_voxel[voxel]));
+                continue;
+            }
+            for (const OpeningTest& test : tests) {
+                const auto component = test.component_of(map.positions[i]);
+                if (!component) continue;
+                give(i, *component);
+                break;
+            }
+        }
+    });
+}
+
 }  // namespace
 
 PointLabels label_points(const PointCloud& map, const SurfaceSample& sample,
                          std::span<const PlanarPatch> patches, const RoomSurfaces& surfaces,
-                         const PointLabelSettings& settings, const Context& context) {
+                         const Openings& openings, const PointLabelSettings& settings,
+                         const Context& context) {
     check_settings(settings);
     if (sample.voxel_of_point.size() != map.size()) {
         throw InvalidArgument("map", std::to_string(map.size()) + " points",
@@ -186,6 +290,7 @@ PointLabels label_points(const PointCloud& map, const SurfaceSample& sample,
                 static_cast<float>(component.confidence) * (1.0F - 0.5F * deviation * deviation);
         }
     });
+    label_openings(map, sample, patches, surfaces, openings, result, context);
     return result;
 }
 

@@ -7,6 +7,7 @@
 #include "roomscribe/core/settings.hpp"
 #include "roomscribe/geometry/point_cloud.hpp"
 #include "roomscribe/interpretation/room_surfaces.hpp"
+#include "roomscribe/interpretation/wall_openings.hpp"
 #include "roomscribe/model/scene.hpp"
 #include "roomscribe/structure/surface_sample.hpp"
 
@@ -30,11 +31,13 @@ struct PointLabelSettings {
 /// A label, an instance and a confidence for every point of the map, in its order. A point belongs
 /// to the surface to whose plane it is nearest among those that it is near enough to and within
 /// whose polygon, widened by the spacing of the sample, it lies; where the surface bends, nearness
-/// to one of its patches counts as well. The confidence is the surface's, less the further the
-/// point is from it. All other points, and those that are not finite, are unknown: label unknown,
-/// instance -1, confidence 0.
+/// to one of its patches counts as well. What lies in the hole of a door or window, or in its
+/// frame, is theirs before it is the wall's; so is the leaf of a door that stands open. The
+/// confidence is the surface's, less the further the point is from it. All other points, and those
+/// that are not finite, are unknown: label unknown, instance -1, confidence 0.
 PointLabels label_points(const PointCloud& map, const SurfaceSample& sample,
                          std::span<const PlanarPatch> patches, const RoomSurfaces& surfaces,
-                         const PointLabelSettings& settings = {}, const Context& context = {});
+                         const Openings& openings, const PointLabelSettings& settings = {},
+                         const Context& context = {});
 
 }  // namespace roomscribe

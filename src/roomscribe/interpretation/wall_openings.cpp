@@ -31,6 +31,10 @@ constexpr double max_leaf_width = 1.3;
 constexpr double floor_reach = 0.25;
 /// m. Hatches and vents are smaller than a window.
 constexpr double min_window_side = 0.35;
+/// m. Panes of doors: above a bottom rail, between stiles.
+constexpr double max_rail = 0.35;
+constexpr double min_glazing_height = 1.3;
+constexpr double usual_rail = 0.12;
 /// m. Architraves are 44 to 95 mm wide.
 constexpr double casing_width = 0.06;
 /// m. uPVC frame and sash together show 100 to 120 mm, fixed lights 50 to 70 mm.
@@ -103,7 +107,10 @@ class HoleFinder {
     /// Groups of open cells; cells that nothing was seen of do not part them.
     void find_groups() {
         group_.assign(relief_.cells.size(), -1);
-        constexpr int reach = 2;
+        // What stands before a window hides a part of it, from top to bottom more often than
+        // from side to side.
+        const int reach_across = std::max(2, static_cast<int>(0.5 / relief_.cell_size));
+        constexpr int reach_up = 2;
         std::vector<std::size_t> stack;
         const auto width = static_cast<std::size_t>(relief_.num_columns);
         for (std::size_t seed = 0; seed < group_.size(); ++seed) {
@@ -119,6 +126,7 @@ class HoleFinder {
                 const int row = static_cast<int>(cell / width);
                 for (const auto& [dx, dy] :
                      {std::pair(1, 0), std::pair(-1, 0), std::pair(0, 1), std::pair(0, -1)}) {
+                    const int reach = dx != 0 ? reach_across : reach_up;
                     for (int step = 1; step <= reach; ++step) {
                         const int x = column + step * dx;
                         const int y = row + step * dy;
@@ -161,9 +169,61 @@ struct HoleEvidence {
     double opaque = 0.0;         ///< share of the open rays that ended in the hole
     double through_share = 0.0;  ///< share of the open cells that most rays went through
     double depth = 0.0;          ///< m, at which most of these ended
-    double at_depth = 0.0;       ///< share of them that did within a bin of it
+    double at_depth = 0.0;       ///< share of them that did near it
     double rim = 0.0;            ///< share of the seen cells around it that are wall
+    /// Cells without a return among open ones, as panes leave them, per open cell.
+    double lost = 0.0;
+    /// m, by how much the middle lies deeper than the cells along the sides.
+    double sunk = 0.0;
 };
+
+/// m, at which most of what was seen at these cells lies; nothing if nothing was.
+std::optional<double> depth_of(const WallRelief& relief, int column, int row) {
+    const std::uint16_t* counts = relief.depths.data() + relief.index(column, row) * num_depth_bins;
+    const auto most = std::max_element(counts, counts + num_depth_bins);
+    if (*most == 0) return std::nullopt;
+    return (static_cast<double>(most - counts) + 0.5) * depth_bin;
+}
+
+double measure_sinking(const WallRelief& relief, const CellRectangle& hole) {
+    std::vector<double> rim;
+    std::vector<double> middle;
+    // The rim without its outermost cell, half of which is wall; the middle half.
+    for (int row = hole.low + 1; row < hole.high - 1; ++row) {
+        for (int column = hole.left + 1; column < hole.right - 1; ++column) {
+            const auto depth = depth_of(relief, column, row);
+            if (!depth) continue;
+            const bool is_rim = row == hole.low + 1 || row == hole.high - 2 ||
+                                column == hole.left + 1 || column == hole.right - 2;
+            const bool is_middle = 4 * (row - hole.low) > hole.high - hole.low &&
+                                   4 * (hole.high - row) > hole.high - hole.low &&
+                                   4 * (column - hole.left) > hole.right - hole.left &&
+                                   4 * (hole.right - column) > hole.right - hole.left;
+            if (is_rim) rim.push_back(*depth);
+            if (is_middle) middle.push_back(*depth);
+        }
+    }
+    return rim.empty() || middle.empty() ? 0.0 : median(middle) - median(rim);
+}
+
+double measure_losses(const WallRelief& relief, const CellRectangle& hole) {
+    double lost = 0.0;
+    double open = 0.0;
+    const auto is_open = [&](int column, int row) { return relief.at(column, row).open() > 0; };
+    for (int row = hole.low + 1; row < hole.high - 1; ++row) {
+        for (int column = hole.left + 1; column < hole.right - 1; ++column) {
+            if (is_open(column, row)) {
+                ++open;
+            } else if (relief.at(column, row).surface == 0) {
+                const int beside =
+                    (is_open(column - 1, row) ? 1 : 0) + (is_open(column + 1, row) ? 1 : 0) +
+                    (is_open(column, row - 1) ? 1 : 0) + (is_open(column, row + 1) ? 1 : 0);
+                lost += beside >= 2 ? 1.0 : 0.0;
+            }
+        }
+    }
+    return lost / std::max(open, 1.0);
+}
 
 HoleEvidence look_into(const WallRelief& relief, const CellRectangle& hole) {
     HoleEvidence evidence;
@@ -201,8 +261,9 @@ HoleEvidence look_into(const WallRelief& relief, const CellRectangle& hole) {
     const auto deepest = std::max_element(depths.begin(), depths.end()) - depths.begin();
     evidence.depth = (static_cast<double>(deepest) + 0.5) * depth_bin;
     double near = 0.0;
-    for (std::ptrdiff_t bin = std::max<std::ptrdiff_t>(0, deepest - 1);
-         bin <= std::min<std::ptrdiff_t>(num_depth_bins - 1, deepest + 1); ++bin) {
+    constexpr std::ptrdiff_t reach = 3;  // bins: noise, and the leaf's own relief
+    for (std::ptrdiff_t bin = std::max<std::ptrdiff_t>(0, deepest - reach);
+         bin <= std::min<std::ptrdiff_t>(num_depth_bins - 1, deepest + reach); ++bin) {
         near += depths[static_cast<std::size_t>(bin)];
     }
     evidence.at_depth = near / std::max(recess, 1e-9);
@@ -227,6 +288,8 @@ HoleEvidence look_into(const WallRelief& relief, const CellRectangle& hole) {
         }
     }
     evidence.rim = rim_wall / std::max(rim_seen, 1.0);
+    evidence.lost = measure_losses(relief, hole);
+    evidence.sunk = measure_sinking(relief, hole);
     return evidence;
 }
 
@@ -253,8 +316,170 @@ double measure_frame(const WallRelief& relief, const CellRectangle& hole) {
     if (left >= middle || right <= middle) return usual_window_frame;
     const double width =
         0.5 * relief.cell_size * static_cast<double>(left - hole.left + hole.right - 1 - right);
-    return std::clamp(width, 0.04, 0.16);
+    return width >= 0.04 && width <= 0.12 ? width : usual_window_frame;
 }
+
+/// A leaf that lies nearly in the plane of its wall.
+struct FlatDoor {
+    CellRectangle cells;
+    double height = 0.0;    ///< m, of the leaf before the wall beside it
+    double contrast = 0.0;  ///< in the least difference that counts
+};
+
+/// Looks at all rectangles of a door's size that stand on the floor.
+class FlatDoorSearch {
+  public:
+    explicit FlatDoorSearch(const WallRelief& relief) : relief_(relief) {
+        const auto stride = static_cast<std::size_t>(relief.num_columns) + 1;
+        sums_.assign(stride * (static_cast<std::size_t>(relief.num_rows) + 1), Sum{});
+        for (int row = 0; row < relief.num_rows; ++row) {
+            for (int column = 0; column < relief.num_columns; ++column) {
+                const ReliefCell& cell = relief.at(column, row);
+                Sum sum;
+                if (cell.surface > 0 && cell.surface >= cell.open()) {
+                    const double mean = static_cast<double>(cell.height) / cell.surface;
+                    // Levers stand out, and what hangs on the wall.
+                    if (std::abs(mean) <= max_height) sum = {1.0, mean, mean * mean};
+                }
+                at(column + 1, row + 1) =
+                    sum + at(column, row + 1) + at(column + 1, row) - at(column, row);
+            }
+        }
+    }
+
+    std::vector<FlatDoor> run() const {
+        std::vector<FlatDoor> candidates;
+        const int high_low = cells(min_leaf_height);
+        const int high_high = std::min(cells(max_leaf_height), relief_.num_rows - cells(0.1));
+        for (int left = 0; left < relief_.num_columns; ++left) {
+            for (int width = cells(min_leaf_width); width <= cells(2.0 * max_flat_width); ++width) {
+                if (left + width > relief_.num_columns) break;
+                const double metres = width * relief_.cell_size;
+                if (metres > max_flat_width && metres < 2.0 * min_leaf_width) continue;
+                for (int high = high_low; high <= high_high; ++high) {
+                    const CellRectangle door{left, left + width, 0, high, 0.0};
+                    if (const auto found = look_at(door)) candidates.push_back(*found);
+                }
+            }
+        }
+        std::stable_sort(
+            candidates.begin(), candidates.end(),
+            [](const FlatDoor& a, const FlatDoor& b) { return a.contrast > b.contrast; });
+        std::vector<FlatDoor> doors;
+        for (const FlatDoor& candidate : candidates) {
+            const bool is_free =
+                std::none_of(doors.begin(), doors.end(), [&](const FlatDoor& door) {
+                    return candidate.cells.left < door.cells.right &&
+                           door.cells.left < candidate.cells.right;
+                });
+            if (is_free) doors.push_back(candidate);
+        }
+        return doors;
+    }
+
+  private:
+    static constexpr double max_height = 0.05;
+    static constexpr double min_leaf_width = 0.6;
+    static constexpr double max_flat_width = 1.15;
+    static constexpr double min_leaf_height = 1.88;
+    static constexpr double max_leaf_height = 2.2;
+    /// m. Twice what walls are out of true over 1 m (DIN 18202, table 3, line 7: 3 mm).
+    static constexpr double min_step = 0.006;
+    /// Standard errors of the difference of two strips; neighbouring cells err alike.
+    static constexpr double min_errors = 3.0;
+    static constexpr double correlated_cells = 8.0;
+    /// Of a step, by how much the leaf itself may bend.
+    static constexpr double max_bend = 0.4;
+
+    struct Sum {
+        double count = 0.0;
+        double heights = 0.0;
+        double squares = 0.0;
+
+        Sum operator+(const Sum& other) const {
+            return {count + other.count, heights + other.heights, squares + other.squares};
+        }
+        Sum operator-(const Sum& other) const {
+            return {count - other.count, heights - other.heights, squares - other.squares};
+        }
+        double mean() const { return heights / count; }
+        double variance_of_mean() const {
+            return correlated_cells * std::max(0.0, squares / count - mean() * mean()) / count;
+        }
+    };
+
+    int cells(double length) const {
+        return std::max(1, static_cast<int>(std::lround(length / relief_.cell_size)));
+    }
+    Sum& at(int column, int row) {
+        return sums_[static_cast<std::size_t>(row) *
+                         (static_cast<std::size_t>(relief_.num_columns) + 1) +
+                     static_cast<std::size_t>(column)];
+    }
+    const Sum& at(int column, int row) const {
+        return sums_[static_cast<std::size_t>(row) *
+                         (static_cast<std::size_t>(relief_.num_columns) + 1) +
+                     static_cast<std::size_t>(column)];
+    }
+    /// Of columns [left, right) and rows [low, high), if more than half of it was seen.
+    std::optional<Sum> strip(int left, int right, int low, int high) const {
+        if (left < 0 || low < 0 || right > relief_.num_columns || high > relief_.num_rows)
+            return std::nullopt;
+        const Sum sum = at(right, high) - at(left, high) - at(right, low) + at(left, low);
+        if (sum.count < 0.5 * (right - left) * (high - low) || sum.count < 4.0) return std::nullopt;
+        return sum;
+    }
+    /// How much the first strip lies before the second, in the least step that counts.
+    static double step(const Sum& a, const Sum& b) {
+        const double error = std::sqrt(a.variance_of_mean() + b.variance_of_mean());
+        return (a.mean() - b.mean()) / std::max(min_step, min_errors * error);
+    }
+
+    std::optional<FlatDoor> look_at(const CellRectangle& door) const {
+        const int gap = 1;  // cells half on either side
+        const int casing = cells(0.1);
+        const int inner = cells(0.2);
+        const int outer = cells(0.15);
+        const int low = cells(0.15);  // above skirtings
+        struct Side {
+            std::optional<Sum> leaf, casing, wall;
+        };
+        const Side sides[3] = {
+            {strip(door.left + gap, door.left + gap + inner, low, door.high),
+             strip(door.left - casing + gap, door.left, low, door.high),
+             strip(door.left - casing - outer, door.left - casing, low, door.high)},
+            {strip(door.right - gap - inner, door.right - gap, low, door.high),
+             strip(door.right, door.right + casing - gap, low, door.high),
+             strip(door.right + casing, door.right + casing + outer, low, door.high)},
+            {strip(door.left, door.right, door.high - gap - inner, door.high - gap),
+             strip(door.left, door.right, door.high, door.high + casing - gap),
+             strip(door.left, door.right, door.high + casing, door.high + casing + outer)}};
+        const auto leaf = strip(door.left + gap, door.right - gap, low, door.high - gap);
+        if (!leaf) return std::nullopt;
+        double lower = std::numeric_limits<double>::infinity();
+        double cased = lower;
+        double height = 0.0;
+        int num_walls = 0;
+        for (const Side& side : sides) {
+            if (!side.leaf) return std::nullopt;
+            if (!side.wall) continue;  // beside the door the wall ends, or something hides it
+            ++num_walls;
+            const double depth = side.wall->mean() - side.leaf->mean();
+            const bool is_flat = std::abs(side.leaf->mean() - leaf->mean()) <= max_bend * depth;
+            lower = std::min(lower, is_flat ? -step(*side.leaf, *side.wall) : 0.0);
+            height -= depth;
+            cased = std::min(cased, side.casing ? std::min(step(*side.casing, *side.wall),
+                                                           step(*side.casing, *side.leaf))
+                                                : 0.0);
+        }
+        const double contrast = std::max(lower, cased);
+        if (num_walls < 2 || contrast < 1.0) return std::nullopt;
+        return FlatDoor{door, height / num_walls, contrast};
+    }
+
+    const WallRelief& relief_;
+    std::vector<Sum> sums_;
+};
 
 class OpeningFinder {
   public:
@@ -282,8 +507,8 @@ class OpeningFinder {
                            const WallRectangle& hole) const;
     std::vector<std::uint32_t> find_open_leaf(const WallFace& face,
                                               const WallRectangle& hole) const;
-    void add_flat_leaves(std::size_t storey, std::size_t face,
-                         std::vector<WallOpening>& openings) const;
+    void add_flat_doors(std::size_t storey, std::size_t face, const WallRelief& relief,
+                        std::vector<WallOpening>& openings) const;
     Vector3d place(const WallFace& face, double along, double up) const {
         return face.plane.offset * face.plane.normal + along * face.along + up * up_;
     }
@@ -382,7 +607,12 @@ std::optional<WallOpening> OpeningFinder::judge(std::size_t storey, std::size_t 
     const HoleEvidence evidence = look_into(relief, cells);
     opening.coverage = evidence.seen;
     opening.hidden = evidence.hidden;
-    if (evidence.seen < 0.4 || evidence.rim < 0.4) return std::nullopt;
+    constexpr double min_seen = 0.4;
+    constexpr double min_rim = 0.4;
+    constexpr double min_lost = 0.08;
+    constexpr double min_through = 0.1;
+    if (evidence.seen * (1.0 + evidence.lost) < min_seen || evidence.rim < min_rim)
+        return std::nullopt;
     opening.room_behind = room_behind(rooms, face, hole);
     const double above_floor = hole.bottom - rooms.floor_height;
     const bool is_closed = evidence.opaque >= 0.6 && evidence.at_depth >= 0.6;
@@ -394,12 +624,14 @@ std::optional<WallOpening> OpeningFinder::judge(std::size_t storey, std::size_t 
             opening.room_behind != no_room || is_indoors_behind(rooms, face, hole);
         hole.bottom = rooms.floor_height;
         opening.frame_width = casing_width;
-        if (is_closed) {
+        const bool is_glazed =
+            evidence.lost >= min_lost || (relief.has_rays && evidence.through_share >= 0.3);
+        if (is_closed && (is_indoors || !is_glazed)) {
             opening.depth = evidence.depth;
             opening.confidence = 0.9;
             return opening;
         }
-        if (!is_indoors && relief.has_rays && evidence.through_share >= 0.3) {
+        if (!is_indoors && is_glazed) {
             opening.type = OpeningType::window;
             opening.depth = evidence.depth;
             opening.frame_width = measure_frame(relief, cells);
@@ -414,11 +646,24 @@ std::optional<WallOpening> OpeningFinder::judge(std::size_t storey, std::size_t 
             opening.type = OpeningType::passage;
         return opening;
     }
+    if (above_floor <= max_rail && hole.height() >= min_glazing_height &&
+        hole.width() <= max_leaf_width && is_indoors_behind(rooms, face, hole)) {
+        // The pane of a leaf whose rails lie in the plane of the wall.
+        hole = hole.grown(usual_rail, 0.0, usual_rail);
+        hole.bottom = rooms.floor_height;
+        opening.frame_width = casing_width;
+        opening.depth = 0.02;
+        opening.confidence = 0.7;
+        return opening;
+    }
     if (hole.width() < min_window_side || hole.height() < min_window_side) return std::nullopt;
     if (above_floor < 0.3 && hole.height() < 1.5) return std::nullopt;
-    // A niche has a back.
-    if (is_closed && evidence.through_share < 0.1) return std::nullopt;
-    if (relief.has_rays && evidence.through_share < 0.1) return std::nullopt;
+    // Panes let rays pass, or lose them, or lie deeper than the frame; the back of a niche does
+    // none of these.
+    constexpr double min_sinking = 0.02;
+    const bool is_glazed = evidence.lost >= min_lost || evidence.sunk >= min_sinking ||
+                           (relief.has_rays && evidence.through_share >= min_through);
+    if (!is_glazed) return std::nullopt;
     opening.type = OpeningType::window;
     opening.depth = std::min(evidence.depth, 0.3);
     opening.frame_width = measure_frame(relief, cells);
@@ -426,48 +671,30 @@ std::optional<WallOpening> OpeningFinder::judge(std::size_t storey, std::size_t 
     return opening;
 }
 
-/// Closed leaves in the plane of their wall: patches of a door's size that stand on the floor.
-void OpeningFinder::add_flat_leaves(std::size_t storey, std::size_t number,
-                                    std::vector<WallOpening>& openings) const {
+/// Closed leaves nearly in the plane of their wall: rectangles of a door's size, on the floor, that
+/// lie a few millimetres deeper or higher than the wall on both sides and above, or have a casing
+/// around them that stands out.
+void OpeningFinder::add_flat_doors(std::size_t storey, std::size_t number, const WallRelief& relief,
+                                   std::vector<WallOpening>& openings) const {
     const StoreyLayout& rooms = layout(storey);
-    const WallFace& face = rooms.faces[number];
-    constexpr double max_depth = 0.2;
-    for (const PlanarPatch& patch : patches_) {
-        if (std::abs(patch.plane.normal.dot(face.plane.normal)) < std::cos(radians(8.0))) continue;
-        const double depth = -face.plane.signed_distance(patch.centroid);
-        if (depth > max_depth || depth < -0.04 || patch.area > 0.8 * face.area) continue;
-        std::vector<double> alongs;
-        std::vector<double> heights;
-        for (const std::uint32_t voxel : patch.points) {
-            const Vector3d point = sample_.cloud.positions[voxel].cast<double>();
-            alongs.push_back(point.dot(face.along));
-            heights.push_back(point.dot(up_));
-        }
-        const double half = 0.5 * sample_.spacing;
-        WallRectangle hole{quantile(alongs, 0.01) - half, quantile(alongs, 0.99) + half,
-                           quantile(heights, 0.01) - half, quantile(heights, 0.99) + half};
-        const double above_floor = hole.bottom - rooms.floor_height;
-        const double top = hole.top - rooms.floor_height;
-        if (above_floor > floor_reach || top < min_door_height || top > 2.3) continue;
-        if (hole.width() < min_door_width || hole.width() > max_door_width) continue;
-        if (hole.start < face.start - 0.1 || hole.end > face.end + 0.1) continue;
-        if (patch.area < 0.6 * hole.area()) continue;
-        hole.bottom = rooms.floor_height;
-        const bool is_known =
-            std::any_of(openings.begin(), openings.end(), [&](const WallOpening& opening) {
-                const double overlap =
-                    std::min(hole.end, opening.hole.end) - std::max(hole.start, opening.hole.start);
-                return overlap > 0.3 * std::min(hole.width(), opening.hole.width());
-            });
-        if (is_known) continue;
+    const FlatDoorSearch search(relief);
+    for (const FlatDoor& door : search.run()) {
         WallOpening opening;
         opening.storey = storey;
         opening.face = number;
-        opening.hole = hole;
-        opening.depth = std::max(0.0, depth);
+        opening.hole = {relief.start + door.cells.left * cell_size_,
+                        relief.start + door.cells.right * cell_size_, rooms.floor_height,
+                        relief.bottom + door.cells.high * cell_size_};
+        const bool is_known =
+            std::any_of(openings.begin(), openings.end(), [&](const WallOpening& known) {
+                return std::min(opening.hole.end, known.hole.end) >
+                       std::max(opening.hole.start, known.hole.start);
+            });
+        if (is_known) continue;
         opening.frame_width = casing_width;
-        opening.room_behind = room_behind(rooms, face, hole);
-        opening.coverage = std::min(1.0, patch.area / hole.area());
+        opening.depth = std::max(0.0, -door.height);
+        opening.room_behind = room_behind(rooms, rooms.faces[number], opening.hole);
+        opening.coverage = 1.0;
         opening.confidence = 0.75;
         openings.push_back(std::move(opening));
     }
@@ -486,7 +713,7 @@ std::vector<WallOpening> OpeningFinder::look_at(std::size_t storey, std::size_t 
         if (auto opening = judge(storey, number, relief, hole))
             openings.push_back(std::move(*opening));
     }
-    add_flat_leaves(storey, number, openings);
+    add_flat_doors(storey, number, relief, openings);
     return openings;
 }
 

@@ -42,6 +42,7 @@ void count(WallRelief& relief, float along, float above, std::uint32_t ReliefCel
     const auto cell = static_cast<std::size_t>(row) * static_cast<std::size_t>(relief.num_columns) +
                       static_cast<std::size_t>(column);
     ++(relief.cells[cell].*what);
+    if (what == &ReliefCell::surface) relief.cells[cell].height += height;
     if (what != &ReliefCell::recess) return;
     const auto bin = static_cast<std::size_t>(-height / static_cast<float>(depth_bin));
     std::uint16_t& depth =
@@ -58,7 +59,7 @@ void follow_rays(WallRelief& relief, const FaceFrame& frame, std::span<const Vec
     for (std::size_t i = 0; i < points.size(); i += stride) {
         const Vector3f point = frame(points[i]);
         if (std::abs(point.z()) <= tolerance) {
-            count(relief, point.x(), point.y(), &ReliefCell::surface);
+            count(relief, point.x(), point.y(), &ReliefCell::surface, point.z());
             continue;
         }
         // Where the ray meets the plane; false for NaN.
@@ -69,7 +70,7 @@ void follow_rays(WallRelief& relief, const FaceFrame& frame, std::span<const Vec
         if (point.z() > max_relief) {
             count(relief, along, above, &ReliefCell::hidden);
         } else if (point.z() > 0.0F) {
-            count(relief, point.x(), point.y(), &ReliefCell::surface);
+            count(relief, point.x(), point.y(), &ReliefCell::surface, point.z());
         } else if (point.z() < -static_cast<float>(max_wall_depth)) {
             count(relief, along, above, &ReliefCell::through);
         } else {
@@ -84,7 +85,7 @@ void place_points(WallRelief& relief, const FaceFrame& frame, std::span<const Ve
     for (std::size_t i = 0; i < points.size(); i += stride) {
         const Vector3f point = frame(points[i]);
         if (point.z() >= -tolerance && point.z() <= max_relief) {
-            count(relief, point.x(), point.y(), &ReliefCell::surface);
+            count(relief, point.x(), point.y(), &ReliefCell::surface, point.z());
         } else if (point.z() < -tolerance && point.z() >= -static_cast<float>(max_wall_depth)) {
             count(relief, point.x(), point.y(), &ReliefCell::recess, point.z());
         }

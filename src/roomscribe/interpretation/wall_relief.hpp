@@ -17,13 +17,15 @@ struct ReliefCell {
     std::uint32_t through = 0;  ///< farther behind it: the ray went through the wall
     std::uint32_t hidden = 0;   ///< before it: what lies behind was not seen
 
+    float height = 0.0F;  ///< m, sum over `surface` of how far before the face they lie
+
     std::uint32_t open() const { return recess + through; }
 };
 
 /// m behind the face. Leaves, panes and blinds lie no deeper in their wall; what does was seen
 /// through it.
 inline constexpr double max_wall_depth = 0.45;
-inline constexpr int num_depth_bins = 18;
+inline constexpr int num_depth_bins = 36;
 inline constexpr double depth_bin = max_wall_depth / num_depth_bins;
 
 /// A wall's face in a raster: columns along the wall, rows upwards from the floor.

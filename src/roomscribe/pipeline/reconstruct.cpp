@@ -108,8 +108,8 @@ void interpret_map(Reconstruction& reconstruction, const PipelineSettings& setti
     Openings openings = find_openings(map, sample, patches, surfaces, upright.room_from_map,
                                       statistics.point_spacing, context);
     finish("doors, windows", 0.9);
-    reconstruction.labels =
-        label_points(map.cloud, sample, patches, surfaces, settings.interpretation.labels, context);
+    reconstruction.labels = label_points(map.cloud, sample, patches, surfaces, openings,
+                                         settings.interpretation.labels, context);
     finish("point labels", 1.0);
 
     reconstruction.scene.room_from_map = surfaces.room_from_map;
