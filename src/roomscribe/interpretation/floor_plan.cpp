@@ -26,9 +26,9 @@ constexpr double max_reach = 60.0;
 /// m, of the slices in which upright surface is counted.
 constexpr double slice_height = 0.1;
 constexpr int num_slices = 64;
-/// m. Cornices, lamps and the scanner's own limits hide the rest of a wall under the ceiling; a
-/// lintel is higher (doors 2.1 m, ceilings 2.4 m and more).
-constexpr double lintel_reach = 0.4;
+/// m. Cornices hide the rest of a wall under the ceiling; a lintel is higher (doors 2.1 m, ceilings
+/// 2.4 m and more), and wardrobes end lower.
+constexpr double lintel_reach = 0.3;
 /// m. Widest opening that is closed between two pieces of one line where no lintel shows: a door
 /// of 1.1 m and its frame (DIN 18101).
 constexpr double max_door_gap = 1.3;
@@ -39,8 +39,8 @@ constexpr double max_opening = 2.2;
 constexpr double min_room_area = 0.8;
 /// m. More than a beam is deep.
 constexpr double min_wall_height = 0.9;
-/// m above the floor. Higher than a desk or a kitchen's base unit with its back panel.
-constexpr double min_free_wall_top = 1.5;
+/// m above the floor. Higher than desks, base units and sideboards.
+constexpr double min_free_wall_top = 1.2;
 /// Of a place on a wall whose top was not seen.
 constexpr int min_slices = 3;
 /// Rays that are traced for free space.
@@ -225,6 +225,7 @@ void PlanDrawer::trace_rays(const ScanMap& map, const Context& context) {
     }
 }
 
+/// Height of the highest ceiling close to a place.
 std::optional<double> PlanDrawer::ceiling_near(const Vector2d& place) const {
     const auto cell = plan_.cell_at(place);
     float highest = std::numeric_limits<float>::quiet_NaN();
@@ -442,6 +443,7 @@ void PlanDrawer::choose_rooms() {
     }
     const double cell_area = plan_.cell_size() * plan_.cell_size();
     constexpr double min_level_share = 0.3;
+    constexpr double min_floor_share = 0.1;  // under furniture a floor shows as much
     constexpr double min_closed_share = 0.5;
     const bool knows_scanners = !sample_.sensor_positions.empty();
     std::vector<std::int32_t> number(counts.size(), no_room);
@@ -449,7 +451,8 @@ void PlanDrawer::choose_rooms() {
     for (std::size_t i = 0; i < counts.size(); ++i) {
         const Count& count = counts[i];
         if (count.cells * cell_area < min_room_area) continue;
-        const bool has_ceiling = count.ceiling >= min_level_share * count.cells;
+        const bool has_ceiling = count.ceiling >= min_level_share * count.cells &&
+                                 (!storey_.floor || count.floor >= min_floor_share * count.cells);
         const bool is_walled =
             count.floor >= min_level_share * count.cells &&
             (!knows_scanners || count.closed_rim >= min_closed_share * count.rim);
@@ -493,7 +496,7 @@ void PlanDrawer::describe_rooms() {
         plan_.rooms[room].floor_height = floor_;
         if (ceilings[room].empty()) continue;
         plan_.rooms[room].ceiling_height = static_cast<double>(median(ceilings[room]));
-        plan_.rooms[room].lowest_ceiling = static_cast<double>(quantile(ceilings[room], 0.1));
+        plan_.rooms[room].lowest_ceiling = static_cast<double>(quantile(ceilings[room], 0.03));
     }
 }
 

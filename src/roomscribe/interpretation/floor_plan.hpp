@@ -22,7 +22,7 @@ inline constexpr std::int32_t no_room = -1;
 struct PlanRoom {
     double floor_height = 0.0;             ///< m along up
     std::optional<double> ceiling_height;  ///< median of what was seen of it
-    std::optional<double> lowest_ceiling;  ///< a tenth of it is lower
+    std::optional<double> lowest_ceiling;  ///< 3 % of it is lower
     double area = 0.0;                     ///< m2, of its cells
     bool holds_scanner = false;
 };

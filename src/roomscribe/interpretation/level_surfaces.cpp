@@ -119,12 +119,20 @@ std::vector<Storey> find_storeys(std::span<const PlanarPatch> patches, const Eig
             !storey.ceilings.empty() && storey.ceilings.front().height <= level->height - min_slab;
         const bool has_level_above =
             large.back()->height >= level->height + settings.min_room_height;
-        if (has_ceiling_below && has_level_above && may_be_floor(level)) {
+        // What looks up so high above the ground with a room over it is no ceiling: the ground
+        // outdoors was seen through a window.
+        const bool is_upper_floor =
+            storey.floor && storey.ceilings.empty() && facing_is_known && level->facing_up > 0.0;
+        if ((has_ceiling_below || is_upper_floor) && has_level_above && may_be_floor(level)) {
             storeys.push_back({*level, {}, {}, {}});
         } else if (may_be_ceiling(level)) {
             storey.ceilings.push_back(*level);
         }
     }
+    // Ground and terraces have no ceiling; a building has, if any of it was seen.
+    const bool has_ceiling = std::any_of(storeys.begin(), storeys.end(),
+                                         [](const Storey& s) { return !s.ceilings.empty(); });
+    if (has_ceiling) std::erase_if(storeys, [](const Storey& s) { return s.ceilings.empty(); });
     add_sloping_ceilings(storeys, patches, up, facing_is_known, settings.min_room_height);
     return storeys;
 }

@@ -8,7 +8,7 @@ namespace roomscribe {
 struct RoomSurfacesSettings {
     double level_tolerance = 0.08;
     double min_room_height = 2.0;
-    double ceiling_reach = 0.35;
+    double ceiling_reach = 0.3;
     double min_wall_height = 0.9;
     double min_free_wall_height = 1.5;
     double max_gap = 2.5;

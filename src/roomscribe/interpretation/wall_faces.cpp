@@ -24,6 +24,12 @@ constexpr double stray_share = 0.005;
 constexpr double min_face_area = 0.2;
 /// m2. A door leaf has 1.6 m2, the front of a desk less than 1.
 constexpr double min_closing_area = 1.0;
+/// m. Skirtings, cables and boxes hide a wall's foot.
+constexpr double foot_reach = 0.3;
+/// m above the floor. Desks, base units and sideboards are lower.
+constexpr double min_closing_top = 1.2;
+/// m. Narrower faces are reveals and the sides of posts.
+constexpr double min_face_width = 0.35;
 /// m. Leaves and panes lie no deeper in their wall.
 constexpr double max_inset = 0.3;
 /// m. Cupboards are 0.2 to 0.9 m deep, and leave this much of the wall behind them to see.
@@ -55,6 +61,7 @@ class FaceFinder {
     void split(std::int32_t room, const Plane& plane, double rms,
                std::vector<std::pair<double, std::uint32_t>> voxels);
     bool is_last(const WallFace& face) const;
+    bool has_level_behind(const WallFace& face) const;
     bool is_wall(const WallFace& face) const;
     bool belongs_to(const WallFace& face, const WallFace& wall) const;
 
@@ -133,7 +140,8 @@ void FaceFinder::split(std::int32_t room, const Plane& plane, double rms,
         face.bottom = quantile(heights, stray_share);
         face.top = quantile(heights, 1.0 - stray_share);
         face.area = voxel_area * static_cast<double>(face.voxels.size());
-        if (face.area >= min_face_area && is_wall(face)) faces_.push_back(std::move(face));
+        if (face.area >= min_face_area && face.width() >= min_face_width && is_wall(face))
+            faces_.push_back(std::move(face));
     }
 }
 
@@ -157,6 +165,23 @@ bool FaceFinder::is_last(const WallFace& face) const {
            (1.0 - min_share) * static_cast<double>(face.voxels.size());
 }
 
+/// Whether behind most of the face floor or ceiling was seen.
+bool FaceFinder::has_level_behind(const WallFace& face) const {
+    constexpr double farthest = 0.4;
+    std::size_t num_level = 0;
+    for (const std::uint32_t voxel : face.voxels) {
+        const Vector3d point = sample_.cloud.positions[voxel].cast<double>();
+        for (double depth = 2.0 * plan_.cell_size(); depth <= farthest;
+             depth += plan_.cell_size()) {
+            const Vector3d place = room_from_map_ * (point - depth * face.plane.normal);
+            if (!plan_.has_level_at(place.head<2>())) continue;
+            ++num_level;
+            break;
+        }
+    }
+    return 2 * num_level > face.voxels.size();
+}
+
 /// Walls reach the ceiling and are more than a beam; where that cannot be seen, they are taller
 /// than furniture and the last thing that was seen.
 bool FaceFinder::is_wall(const WallFace& face) const {
@@ -164,21 +189,28 @@ bool FaceFinder::is_wall(const WallFace& face) const {
     const auto ceiling = room.lowest_ceiling;
     const double height = face.top - face.bottom;
     if (height < settings_.min_wall_height) return false;
-    if (ceiling && face.top >= *ceiling - settings_.ceiling_reach) return true;
-    if (face.top < room.floor_height + settings_.min_free_wall_height) return false;
+    if (ceiling && face.top >= *ceiling - settings_.ceiling_reach) {
+        // Beams, ducts and soffits end above the floor, which goes on under them.
+        const bool reaches_floor = face.bottom <= room.floor_height + foot_reach;
+        return reaches_floor || !has_level_behind(face);
+    }
     if (!ceiling && height >= settings_.min_free_wall_height) return true;
-    return face.area >= min_closing_area && is_last(face);
+    return face.area >= min_closing_area && face.top >= room.floor_height + min_closing_top &&
+           is_last(face);
 }
 
 /// A leaf or a pane in the wall, or the front of what stands before it: parallel, within the wall's
-/// extent, and lower.
+/// extent, and lower. Panes as high as the wall show less of themselves than the wall does.
 bool FaceFinder::belongs_to(const WallFace& face, const WallFace& wall) const {
-    if (face.room != wall.room || face.top > wall.top - min_clearance) return false;
+    if (face.room != wall.room) return false;
+    const bool is_lower = face.top <= wall.top - min_clearance;
     if (face.plane.normal.dot(wall.plane.normal) < std::cos(radians(15.0))) return false;
     const Vector3d middle =
         0.5 * (face.start + face.end) * face.along + face.plane.offset * face.plane.normal;
     const double before = wall.plane.signed_distance(middle);
     if (before < -max_inset || before > max_furniture_depth) return false;
+    const bool is_inset = before < -sample_.tolerance && face.area < 0.6 * wall.area;
+    if (!is_lower && !is_inset) return false;
     const double center = middle.dot(wall.along);
     const double half = 0.5 * face.width();
     const double overlap = std::min(center + half, wall.end) - std::max(center - half, wall.start);

@@ -76,6 +76,32 @@ CellRectangle heaviest_rectangle(std::span<const float> weights, int num_columns
     return best;
 }
 
+/// The relief with cells that nothing was seen of filled from those around them, for walls that are
+/// far from every scanner.
+WallRelief fill_gaps(const WallRelief& relief) {
+    constexpr int reach = 2;
+    WallRelief filled = relief;
+    for (int row = 0; row < relief.num_rows; ++row) {
+        for (int column = 0; column < relief.num_columns; ++column) {
+            const ReliefCell& cell = relief.at(column, row);
+            if (cell.surface + cell.open() + cell.hidden > 0) continue;
+            ReliefCell& target = filled.cells[relief.index(column, row)];
+            for (int y = std::max(0, row - reach); y <= std::min(relief.num_rows - 1, row + reach);
+                 ++y) {
+                for (int x = std::max(0, column - reach);
+                     x <= std::min(relief.num_columns - 1, column + reach); ++x) {
+                    const ReliefCell& near = relief.at(x, y);
+                    target.surface += near.surface;
+                    target.recess += near.recess;
+                    target.through += near.through;
+                    target.height += near.height;
+                }
+            }
+        }
+    }
+    return filled;
+}
+
 /// The holes of one wall's face.
 class HoleFinder {
   public:
@@ -162,6 +188,37 @@ class HoleFinder {
     std::int32_t num_groups_ = 0;
 };
 
+enum class HoleSide : std::uint8_t { left, right, bottom, top };
+
+/// Share of the cells closely beside a hole that are wall; nothing if less than a third of them was
+/// seen.
+std::optional<double> look_at_side(const WallRelief& relief, const CellRectangle& hole,
+                                   HoleSide side) {
+    double wall = 0.0;
+    double seen = 0.0;
+    double cells = 0.0;
+    const auto look = [&](int column, int row) {
+        ++cells;
+        if (column < 0 || row < 0 || column >= relief.num_columns || row >= relief.num_rows) return;
+        const ReliefCell& cell = relief.at(column, row);
+        if (cell.surface + cell.open() == 0) return;
+        ++seen;
+        wall += cell.surface >= cell.open() ? 1.0 : 0.0;
+    };
+    for (int gap = 1; gap <= 2; ++gap) {
+        if (side == HoleSide::left || side == HoleSide::right) {
+            const int column = side == HoleSide::left ? hole.left - 1 - gap : hole.right + gap;
+            for (int row = hole.low; row < hole.high; ++row)
+                look(column, row);
+        } else {
+            const int row = side == HoleSide::bottom ? hole.low - 1 - gap : hole.high + gap;
+            for (int column = hole.left; column < hole.right; ++column)
+                look(column, row);
+        }
+    }
+    return 3.0 * seen >= cells ? std::optional(wall / seen) : std::nullopt;
+}
+
 /// What the cells of a hole tell.
 struct HoleEvidence {
     double seen = 0.0;           ///< share of the cells that are open
@@ -170,8 +227,11 @@ struct HoleEvidence {
     double through_share = 0.0;  ///< share of the open cells that most rays went through
     double depth = 0.0;          ///< m, at which most of these ended
     double at_depth = 0.0;       ///< share of them that did near it
-    double rim = 0.0;            ///< share of the seen cells around it that are wall
-    /// Cells without a return among open ones, as panes leave them, per open cell.
+    /// By side: share of the cells closely around it that are wall, if enough were seen.
+    std::array<std::optional<double>, 4> rim;
+    double framed = 0.0;  ///< share of the cells along its sides in which rays ended
+    /// By how much cells without a return are more frequent among the open ones, as panes leave
+    /// them, than in the wall around.
     double lost = 0.0;
     /// m, by how much the middle lies deeper than the cells along the sides.
     double sunk = 0.0;
@@ -206,23 +266,58 @@ double measure_sinking(const WallRelief& relief, const CellRectangle& hole) {
     return rim.empty() || middle.empty() ? 0.0 : median(middle) - median(rim);
 }
 
-double measure_losses(const WallRelief& relief, const CellRectangle& hole) {
-    double lost = 0.0;
+/// Share of the open cells along the sides in which something was seen in the hole.
+double measure_framing(const WallRelief& relief, const CellRectangle& hole) {
+    double framed = 0.0;
     double open = 0.0;
-    const auto is_open = [&](int column, int row) { return relief.at(column, row).open() > 0; };
-    for (int row = hole.low + 1; row < hole.high - 1; ++row) {
-        for (int column = hole.left + 1; column < hole.right - 1; ++column) {
-            if (is_open(column, row)) {
-                ++open;
-            } else if (relief.at(column, row).surface == 0) {
-                const int beside =
-                    (is_open(column - 1, row) ? 1 : 0) + (is_open(column + 1, row) ? 1 : 0) +
-                    (is_open(column, row - 1) ? 1 : 0) + (is_open(column, row + 1) ? 1 : 0);
-                lost += beside >= 2 ? 1.0 : 0.0;
-            }
+    for (int row = hole.low; row < hole.high; ++row) {
+        for (int column = hole.left; column < hole.right; ++column) {
+            const int inwards = std::min(
+                {row - hole.low, hole.high - 1 - row, column - hole.left, hole.right - 1 - column});
+            const ReliefCell& cell = relief.at(column, row);
+            if (inwards != 1 || cell.open() == 0) continue;
+            ++open;
+            framed += 2 * cell.recess >= cell.open() ? 1.0 : 0.0;
         }
     }
-    return lost / std::max(open, 1.0);
+    return framed / std::max(open, 1.0);
+}
+
+/// Share of the cells without a return among those that have some beside them.
+double share_of_gaps(const WallRelief& relief, const CellRectangle& area, bool in_hole) {
+    double gaps = 0.0;
+    double cells = 0.0;
+    const auto is_seen = [&](int column, int row) {
+        const ReliefCell& cell = relief.at(column, row);
+        return in_hole ? cell.open() > 0 : cell.surface > 0;
+    };
+    for (int row = std::max(1, area.low); row < std::min(relief.num_rows - 1, area.high); ++row) {
+        for (int column = std::max(1, area.left);
+             column < std::min(relief.num_columns - 1, area.right); ++column) {
+            if (is_seen(column, row)) {
+                ++cells;
+                continue;
+            }
+            const ReliefCell& cell = relief.at(column, row);
+            if (cell.surface + cell.open() > 0) continue;
+            const int beside =
+                (is_seen(column - 1, row) ? 1 : 0) + (is_seen(column + 1, row) ? 1 : 0) +
+                (is_seen(column, row - 1) ? 1 : 0) + (is_seen(column, row + 1) ? 1 : 0);
+            if (beside < 2) continue;
+            ++cells;
+            ++gaps;
+        }
+    }
+    return gaps / std::max(cells, 1.0);
+}
+
+/// By how much gaps are more frequent in the hole than in the wall around it.
+double measure_losses(const WallRelief& relief, const CellRectangle& hole) {
+    const int margin = std::max(3, (hole.right - hole.left) / 2);
+    const CellRectangle inside{hole.left + 1, hole.right - 1, hole.low + 1, hole.high - 1, 0.0};
+    const CellRectangle around{hole.left - margin, hole.right + margin, hole.low - margin,
+                               hole.high + margin, 0.0};
+    return share_of_gaps(relief, inside, true) - share_of_gaps(relief, around, false);
 }
 
 HoleEvidence look_into(const WallRelief& relief, const CellRectangle& hole) {
@@ -268,28 +363,11 @@ HoleEvidence look_into(const WallRelief& relief, const CellRectangle& hole) {
     }
     evidence.at_depth = near / std::max(recess, 1e-9);
 
-    double rim_wall = 0.0;
-    double rim_seen = 0.0;
-    const auto look = [&](int column, int row) {
-        if (column < 0 || row < 0 || column >= relief.num_columns || row >= relief.num_rows) return;
-        const ReliefCell& cell = relief.at(column, row);
-        if (cell.surface + cell.open() == 0) return;
-        ++rim_seen;
-        rim_wall += cell.surface >= cell.open() ? 1.0 : 0.0;
-    };
-    for (int gap = 1; gap <= 2; ++gap) {
-        for (int row = hole.low; row < hole.high; ++row) {
-            look(hole.left - 1 - gap, row);
-            look(hole.right + gap, row);
-        }
-        for (int column = hole.left; column < hole.right; ++column) {
-            look(column, hole.high + gap);
-            look(column, hole.low - 1 - gap);
-        }
-    }
-    evidence.rim = rim_wall / std::max(rim_seen, 1.0);
+    for (std::size_t side = 0; side < 4; ++side)
+        evidence.rim[side] = look_at_side(relief, hole, static_cast<HoleSide>(side));
     evidence.lost = measure_losses(relief, hole);
     evidence.sunk = measure_sinking(relief, hole);
+    evidence.framed = measure_framing(relief, hole);
     return evidence;
 }
 
@@ -459,11 +537,9 @@ class FlatDoorSearch {
         double lower = std::numeric_limits<double>::infinity();
         double cased = lower;
         double height = 0.0;
-        int num_walls = 0;
         for (const Side& side : sides) {
             if (!side.leaf) return std::nullopt;
-            if (!side.wall) continue;  // beside the door the wall ends, or something hides it
-            ++num_walls;
+            if (!side.wall) return std::nullopt;
             const double depth = side.wall->mean() - side.leaf->mean();
             const bool is_flat = std::abs(side.leaf->mean() - leaf->mean()) <= max_bend * depth;
             lower = std::min(lower, is_flat ? -step(*side.leaf, *side.wall) : 0.0);
@@ -473,12 +549,35 @@ class FlatDoorSearch {
                                                 : 0.0);
         }
         const double contrast = std::max(lower, cased);
-        if (num_walls < 2 || contrast < 1.0) return std::nullopt;
-        return FlatDoor{door, height / num_walls, contrast};
+        if (contrast < 1.0) return std::nullopt;
+        return FlatDoor{door, height / 3.0, contrast};
     }
 
     const WallRelief& relief_;
     std::vector<Sum> sums_;
+};
+
+/// Whether wall was seen on three sides, or two of a hole on the floor, and nothing else on any.
+bool is_framed_by_wall(const HoleEvidence& evidence, bool stands_on_floor) {
+    constexpr double min_wall = 0.5;
+    int num_walls = 0;
+    for (std::size_t side = 0; side < 4; ++side) {
+        if (stands_on_floor && static_cast<HoleSide>(side) == HoleSide::bottom) continue;
+        if (!evidence.rim[side]) continue;
+        if (*evidence.rim[side] < min_wall) return false;
+        ++num_walls;
+    }
+    return num_walls >= (stands_on_floor ? 2 : 3);
+}
+
+/// An upright patch: m along its own level direction and along up.
+struct LeafExtent {
+    Vector3d along;
+    double across = 0.0;  ///< m along its normal
+    double start = 0.0;
+    double end = 0.0;
+    double bottom = 0.0;
+    double top = 0.0;
 };
 
 class OpeningFinder {
@@ -505,6 +604,8 @@ class OpeningFinder {
                              const WallRectangle& hole) const;
     bool is_indoors_behind(const StoreyLayout& layout, const WallFace& face,
                            const WallRectangle& hole) const;
+    LeafExtent extent_of(const PlanarPatch& patch) const;
+    void widen_to_hinge(const WallFace& face, WallRectangle& hole) const;
     std::vector<std::uint32_t> find_open_leaf(const WallFace& face,
                                               const WallRectangle& hole) const;
     void add_flat_doors(std::size_t storey, std::size_t face, const WallRelief& relief,
@@ -547,6 +648,23 @@ bool OpeningFinder::is_indoors_behind(const StoreyLayout& layout, const WallFace
     return false;
 }
 
+LeafExtent OpeningFinder::extent_of(const PlanarPatch& patch) const {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    LeafExtent extent;
+    extent.along = up_.cross(patch.plane.normal).normalized();
+    extent.across = patch.plane.normal.dot(patch.centroid);
+    extent.start = extent.bottom = infinity;
+    extent.end = extent.top = -infinity;
+    for (const std::uint32_t voxel : patch.points) {
+        const Vector3d point = sample_.cloud.positions[voxel].cast<double>();
+        extent.bottom = std::min(extent.bottom, point.dot(up_));
+        extent.top = std::max(extent.top, point.dot(up_));
+        extent.start = std::min(extent.start, point.dot(extent.along));
+        extent.end = std::max(extent.end, point.dot(extent.along));
+    }
+    return extent;
+}
+
 /// The patches of a leaf that stands open: upright, as wide and high as the hole, with one upright
 /// edge at a side of it.
 std::vector<std::uint32_t> OpeningFinder::find_open_leaf(const WallFace& face,
@@ -561,26 +679,15 @@ std::vector<std::uint32_t> OpeningFinder::find_open_leaf(const WallFace& face,
             std::abs(face.plane.signed_distance(patch.centroid)) < 0.15) {
             continue;
         }
-        double low = std::numeric_limits<double>::infinity();
-        double high = -low;
-        double start = low;
-        double end = -low;
-        const Vector3d along = up_.cross(patch.plane.normal).normalized();
-        for (const std::uint32_t voxel : patch.points) {
-            const Vector3d point = sample_.cloud.positions[voxel].cast<double>();
-            low = std::min(low, point.dot(up_));
-            high = std::max(high, point.dot(up_));
-            start = std::min(start, point.dot(along));
-            end = std::max(end, point.dot(along));
-        }
-        if (high > hole.top + 0.12 || high < hole.top - 0.4) continue;
-        if (end - start > hole.width() + 0.15 || high - low < 0.5) continue;
-        if (end - start < 0.4 * std::min(hole.width(), max_leaf_width)) continue;
+        const LeafExtent extent = extent_of(patch);
+        const double width = extent.end - extent.start;
+        if (extent.top > hole.top + 0.12 || extent.top < hole.top - 0.4) continue;
+        if (width > hole.width() + 0.15 || extent.top - extent.bottom < 0.5) continue;
+        if (width < 0.4 * std::min(hole.width(), max_leaf_width)) continue;
         // One end of the leaf is at the hinge.
-        const double across = patch.plane.normal.dot(patch.centroid);
         bool is_hinged = false;
-        for (const double position : {start, end}) {
-            const Vector3d edge = position * along + across * patch.plane.normal;
+        for (const double position : {extent.start, extent.end}) {
+            const Vector3d edge = position * extent.along + extent.across * patch.plane.normal;
             for (const double side : {hole.start, hole.end}) {
                 const Vector3d jamb = place(face, side, 0.0);
                 const Vector3d offset = edge - jamb;
@@ -608,14 +715,15 @@ std::optional<WallOpening> OpeningFinder::judge(std::size_t storey, std::size_t 
     opening.coverage = evidence.seen;
     opening.hidden = evidence.hidden;
     constexpr double min_seen = 0.4;
-    constexpr double min_rim = 0.4;
     constexpr double min_lost = 0.08;
     constexpr double min_through = 0.1;
-    if (evidence.seen * (1.0 + evidence.lost) < min_seen || evidence.rim < min_rim)
-        return std::nullopt;
+    if (evidence.seen + evidence.lost < min_seen) return std::nullopt;
+    const bool stands_on_floor = hole.bottom - rooms.floor_height <= max_rail;
+    if (!is_framed_by_wall(evidence, stands_on_floor)) return std::nullopt;
     opening.room_behind = room_behind(rooms, face, hole);
     const double above_floor = hole.bottom - rooms.floor_height;
     const bool is_closed = evidence.opaque >= 0.6 && evidence.at_depth >= 0.6;
+    if (above_floor <= floor_reach) widen_to_hinge(face, hole);
     const bool is_door_size = hole.width() >= min_door_width && hole.width() <= max_door_width &&
                               hole.top - rooms.floor_height >= min_door_height &&
                               hole.top - rooms.floor_height <= max_door_height;
@@ -664,15 +772,42 @@ std::optional<WallOpening> OpeningFinder::judge(std::size_t storey, std::size_t 
     const bool is_glazed = evidence.lost >= min_lost || evidence.sunk >= min_sinking ||
                            (relief.has_rays && evidence.through_share >= min_through);
     if (!is_glazed) return std::nullopt;
+    // A mirror shows what lies behind it without a frame in the wall, and as often as not where
+    // another room is.
+    constexpr double min_framed = 0.25;
+    if (evidence.framed < min_framed || is_indoors_behind(rooms, face, hole)) return std::nullopt;
     opening.type = OpeningType::window;
     opening.depth = std::min(evidence.depth, 0.3);
     opening.frame_width = measure_frame(relief, cells);
-    opening.confidence = 0.6 + 0.3 * evidence.rim;
+    opening.confidence = 0.85;
     return opening;
 }
 
+/// A leaf that stands ajar hides a part of its hole: that reaches to the hinge then.
+void OpeningFinder::widen_to_hinge(const WallFace& face, WallRectangle& hole) const {
+    if (hole.width() >= max_leaf_width || hole.height() < min_door_height - floor_reach) return;
+    for (const PlanarPatch& patch : patches_) {
+        if (std::abs(patch.plane.normal.dot(up_)) > std::sin(radians(8.0))) continue;
+        if (std::abs(patch.plane.normal.dot(face.plane.normal)) > std::cos(radians(4.0))) continue;
+        const auto leaf = extent_of(patch);
+        const double width = leaf.end - leaf.start;
+        if (width < min_door_width || width > max_leaf_width) continue;
+        if (std::abs(leaf.top - hole.top) > 0.15 || leaf.top - leaf.bottom < 1.2) continue;
+        for (const double end : {leaf.start, leaf.end}) {
+            const Vector3d hinge = end * leaf.along + leaf.across * patch.plane.normal;
+            if (std::abs(face.plane.signed_distance(hinge)) > 0.2) continue;
+            const double position = hinge.dot(face.along);
+            constexpr double slack = 0.15;
+            if (position < hole.start && std::abs(hole.end - position - width) <= slack)
+                hole.start = position;
+            if (position > hole.end && std::abs(position - hole.start - width) <= slack)
+                hole.end = position;
+        }
+    }
+}
+
 /// Closed leaves nearly in the plane of their wall: rectangles of a door's size, on the floor, that
-/// lie a few millimetres deeper or higher than the wall on both sides and above, or have a casing
+/// lie a few millimetres deeper than the wall on both sides and above, or have a casing
 /// around them that stands out.
 void OpeningFinder::add_flat_doors(std::size_t storey, std::size_t number, const WallRelief& relief,
                                    std::vector<WallOpening>& openings) const {
@@ -709,7 +844,8 @@ std::vector<WallOpening> OpeningFinder::look_at(std::size_t storey, std::size_t 
     const WallRelief relief = measure_wall_relief(map_, face, up_, rooms.floor_height, top,
                                                   std::min(tolerance, 0.06), cell_size_);
     std::vector<WallOpening> openings;
-    for (const CellRectangle& hole : HoleFinder(relief).run()) {
+    const WallRelief filled = fill_gaps(relief);
+    for (const CellRectangle& hole : HoleFinder(filled).run()) {
         if (auto opening = judge(storey, number, relief, hole))
             openings.push_back(std::move(*opening));
     }

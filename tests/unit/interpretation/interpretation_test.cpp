@@ -23,6 +23,7 @@ struct Interpretation {
     std::vector<PlanarPatch> patches;
     Upright upright;
     RoomSurfaces surfaces;
+    Openings openings;
     PointLabels labels;
 };
 
@@ -38,8 +39,11 @@ Interpretation interpret(PointCloud cloud, const Context& context = {}) {
     result.upright = find_upright(result.sample, result.patches, axes, {}, context);
     result.surfaces =
         find_room_surfaces(map, result.sample, result.patches, result.upright, {}, context);
-    result.labels =
-        label_points(map.cloud, result.sample, result.patches, result.surfaces, {}, context);
+    result.openings =
+        find_openings(map, result.sample, result.patches, result.surfaces,
+                      result.upright.room_from_map, statistics.point_spacing, context);
+    result.labels = label_points(map.cloud, result.sample, result.patches, result.surfaces,
+                                 result.openings, {}, context);
     return result;
 }
 
@@ -200,7 +204,7 @@ TEST(LabelPoints, RejectsASampleOfAnotherMap) {
     const SurfaceSample sample;
     PointCloud map;
     map.positions.resize(3);
-    EXPECT_THROW(label_points(map, sample, {}, {}), InvalidArgument);
+    EXPECT_THROW(label_points(map, sample, {}, {}, {}), InvalidArgument);
 }
 
 }  // namespace
