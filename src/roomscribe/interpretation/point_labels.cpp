@@ -9,6 +9,7 @@
 
 #include "roomscribe/core/error.hpp"
 #include "roomscribe/core/parallel.hpp"
+#include "roomscribe/interpretation/standing_things.hpp"
 
 namespace roomscribe {
 namespace {
@@ -184,20 +185,28 @@ class OpeningTest {
         if (opening_.type == OpeningType::passage) return std::nullopt;
         const auto leaf_depth = static_cast<float>(opening_.depth);
         if (opening_.type == OpeningType::window) {
+            const auto frame_depth = static_cast<float>(opening_.frame_depth);
             // Before the frame lies the reveal, which is the wall's.
-            if (depth < 0.3F * leaf_depth) return std::nullopt;
-            return opening_.components[is_in(leaf_, along, above) ? 0 : 1];
+            if (depth < 0.5F * frame_depth) return std::nullopt;
+            // Mullions and sashes lie in the plane of the frame, panes behind it.
+            const bool is_pane =
+                is_in(leaf_, along, above) && depth > 0.5F * (frame_depth + leaf_depth);
+            return opening_.components[is_pane ? 0 : 1];
         }
         if (is_in(leaf_, along, above)) {
-            const bool is_leaf = !opening_.is_open && std::abs(depth - leaf_depth) <= leaf_reach;
-            return opening_.components[is_leaf ? 0 : 1];
+            // The lining lies along the sides, before and behind the leaf.
+            const bool is_at_side = std::min({along - leaf_.start, leaf_.end - along,
+                                              leaf_.top - above}) < lining_width;
+            const bool is_leaf = std::abs(depth - leaf_depth) <= leaf_reach;
+            return opening_.components[is_at_side && (opening_.is_open || !is_leaf) ? 1 : 0];
         }
         return opening_.components[1];
     }
 
   private:
-    static constexpr float max_casing = 0.04F;  // m out of the wall
-    static constexpr float leaf_reach = 0.06F;  // m: half of the leaf, its panels and noise
+    static constexpr float max_casing = 0.04F;    // m out of the wall
+    static constexpr double lining_width = 0.08;  // m, of what rays see of it aslant
+    static constexpr float leaf_reach = 0.06F;    // m: half of the leaf, its panels and noise
 
     static bool is_in(const WallRectangle& rectangle, double along, double above) {
         return along >= rectangle.start && along <= rectangle.end && above >= rectangle.bottom &&
@@ -257,6 +266,20 @@ void label_openings(const PointCloud& map, const SurfaceSample& sample,
     });
 }
 
+/// What stands on the floor is furniture, for want of a better word for it; which piece is not
+/// told.
+void label_furniture(const SurfaceSample& sample, const RoomSurfaces& surfaces, PointLabels& labels,
+                     const Context& context) {
+    constexpr float confidence = 0.5F;
+    const std::vector<bool> stands = find_standing_things(sample, surfaces, labels.labels, context);
+    for (std::size_t i = 0; i < labels.labels.size(); ++i) {
+        const std::uint32_t voxel = sample.voxel_of_point[i];
+        if (voxel == no_voxel || !stands[voxel] || labels.labels[i] != Label::unknown) continue;
+        labels.labels[i] = Label::furniture;
+        labels.confidences[i] = confidence;
+    }
+}
+
 }  // namespace
 
 PointLabels label_points(const PointCloud& map, const SurfaceSample& sample,
@@ -291,6 +314,7 @@ PointLabels label_points(const PointCloud& map, const SurfaceSample& sample,
         }
     });
     label_openings(map, sample, patches, surfaces, openings, result, context);
+    label_furniture(sample, surfaces, result, context);
     return result;
 }
 

@@ -31,6 +31,8 @@ constexpr double max_leaf_width = 1.3;
 constexpr double floor_reach = 0.25;
 /// m. Hatches and vents are smaller than a window.
 constexpr double min_window_side = 0.35;
+/// Confidence of a hole like a window's without a sign of glass, until drop_niches().
+constexpr double unglazed = 0.1;
 /// m. Panes of doors: above a bottom rail, between stiles.
 constexpr double max_rail = 0.35;
 constexpr double min_glazing_height = 1.3;
@@ -219,6 +221,12 @@ std::optional<double> look_at_side(const WallRelief& relief, const CellRectangle
     return 3.0 * seen >= cells ? std::optional(wall / seen) : std::nullopt;
 }
 
+/// m, at which the cells along the sides lie, and those in the middle, as most of them do.
+struct HoleDepths {
+    std::optional<double> rim;
+    std::optional<double> middle;
+};
+
 /// What the cells of a hole tell.
 struct HoleEvidence {
     double seen = 0.0;           ///< share of the cells that are open
@@ -233,8 +241,10 @@ struct HoleEvidence {
     /// By how much cells without a return are more frequent among the open ones, as panes leave
     /// them, than in the wall around.
     double lost = 0.0;
-    /// m, by how much the middle lies deeper than the cells along the sides.
-    double sunk = 0.0;
+    HoleDepths depths;
+
+    /// m, by how much the middle lies deeper than the sides.
+    double sunk() const { return depths.rim && depths.middle ? *depths.middle - *depths.rim : 0.0; }
 };
 
 /// m, at which most of what was seen at these cells lies; nothing if nothing was.
@@ -245,7 +255,7 @@ std::optional<double> depth_of(const WallRelief& relief, int column, int row) {
     return (static_cast<double>(most - counts) + 0.5) * depth_bin;
 }
 
-double measure_sinking(const WallRelief& relief, const CellRectangle& hole) {
+HoleDepths measure_depths(const WallRelief& relief, const CellRectangle& hole) {
     std::vector<double> rim;
     std::vector<double> middle;
     // The rim without its outermost cell, half of which is wall; the middle half.
@@ -263,7 +273,10 @@ double measure_sinking(const WallRelief& relief, const CellRectangle& hole) {
             if (is_middle) middle.push_back(*depth);
         }
     }
-    return rim.empty() || middle.empty() ? 0.0 : median(middle) - median(rim);
+    HoleDepths depths;
+    if (!rim.empty()) depths.rim = median(rim);
+    if (!middle.empty()) depths.middle = median(middle);
+    return depths;
 }
 
 /// Share of the open cells along the sides in which something was seen in the hole.
@@ -366,7 +379,7 @@ HoleEvidence look_into(const WallRelief& relief, const CellRectangle& hole) {
     for (std::size_t side = 0; side < 4; ++side)
         evidence.rim[side] = look_at_side(relief, hole, static_cast<HoleSide>(side));
     evidence.lost = measure_losses(relief, hole);
-    evidence.sunk = measure_sinking(relief, hole);
+    evidence.depths = measure_depths(relief, hole);
     evidence.framed = measure_framing(relief, hole);
     return evidence;
 }
@@ -557,6 +570,15 @@ class FlatDoorSearch {
     std::vector<Sum> sums_;
 };
 
+/// A window's pane lies in its frame, deeper than the frame's front.
+void set_depths(WallOpening& opening, const HoleEvidence& evidence) {
+    constexpr double usual_sinking = 0.035;
+    constexpr double max_frame_depth = 0.3;
+    opening.frame_depth = std::min(evidence.depths.rim.value_or(evidence.depth), max_frame_depth);
+    const double sunk = evidence.sunk();
+    opening.depth = opening.frame_depth + (sunk > 0.01 && sunk < 0.1 ? sunk : usual_sinking);
+}
+
 /// Whether wall was seen on three sides, or two of a hole on the floor, and nothing else on any.
 bool is_framed_by_wall(const HoleEvidence& evidence, bool stands_on_floor) {
     constexpr double min_wall = 0.5;
@@ -741,7 +763,7 @@ std::optional<WallOpening> OpeningFinder::judge(std::size_t storey, std::size_t 
         }
         if (!is_indoors && is_glazed) {
             opening.type = OpeningType::window;
-            opening.depth = evidence.depth;
+            set_depths(opening, evidence);
             opening.frame_width = measure_frame(relief, cells);
             opening.confidence = 0.7;
             return opening;
@@ -750,8 +772,8 @@ std::optional<WallOpening> OpeningFinder::judge(std::size_t storey, std::size_t 
         opening.is_open = true;
         opening.depth = 0.05;
         opening.confidence = opening.leaf_patches.empty() ? 0.6 : 0.85;
-        if (opening.leaf_patches.empty() && hole.width() > max_leaf_width)
-            opening.type = OpeningType::passage;
+        // Without its leaf a wide hole is as often a passage as a double door.
+        if (opening.leaf_patches.empty() && hole.width() > max_leaf_width) opening.confidence = 0.5;
         return opening;
     }
     if (above_floor <= max_rail && hole.height() >= min_glazing_height &&
@@ -769,17 +791,16 @@ std::optional<WallOpening> OpeningFinder::judge(std::size_t storey, std::size_t 
     // Panes let rays pass, or lose them, or lie deeper than the frame; the back of a niche does
     // none of these.
     constexpr double min_sinking = 0.02;
-    const bool is_glazed = evidence.lost >= min_lost || evidence.sunk >= min_sinking ||
+    const bool is_glazed = evidence.lost >= min_lost || evidence.sunk() >= min_sinking ||
                            (relief.has_rays && evidence.through_share >= min_through);
-    if (!is_glazed) return std::nullopt;
     // A mirror shows what lies behind it without a frame in the wall, and as often as not where
     // another room is.
     constexpr double min_framed = 0.25;
     if (evidence.framed < min_framed || is_indoors_behind(rooms, face, hole)) return std::nullopt;
     opening.type = OpeningType::window;
-    opening.depth = std::min(evidence.depth, 0.3);
+    set_depths(opening, evidence);
     opening.frame_width = measure_frame(relief, cells);
-    opening.confidence = 0.85;
+    opening.confidence = is_glazed ? 0.85 : unglazed;
     return opening;
 }
 
@@ -853,6 +874,25 @@ std::vector<WallOpening> OpeningFinder::look_at(std::size_t storey, std::size_t 
     return openings;
 }
 
+/// Of holes that may be windows behind blinds, or niches: only those are kept that look like a
+/// window of the same building, since windows of a kind have one sill and one lintel.
+void drop_niches(std::vector<WallOpening>& openings) {
+    constexpr double alike = 0.1;
+    const std::vector<WallOpening> all = openings;
+    std::erase_if(openings, [&](const WallOpening& opening) {
+        return opening.confidence <= unglazed &&
+               std::none_of(all.begin(), all.end(), [&](const WallOpening& other) {
+                   return other.type == OpeningType::window && other.storey == opening.storey &&
+                          other.confidence > unglazed &&
+                          std::abs(other.hole.bottom - opening.hole.bottom) <= alike &&
+                          std::abs(other.hole.top - opening.hole.top) <= alike;
+               });
+    });
+    for (WallOpening& opening : openings) {
+        if (opening.confidence <= unglazed) opening.confidence = 0.7;
+    }
+}
+
 /// Whether two openings are the two sides of one.
 bool is_same(const WallOpening& a, const WallOpening& b, const RoomSurfaces& surfaces) {
     constexpr double max_thickness = 0.6;
@@ -919,7 +959,7 @@ class ComponentBuilder {
         switch (opening.type) {
             case OpeningType::window:
                 push(Label::window, hole.grown(-width, -width, -width), opening.depth);
-                push(Label::window_frame, hole, std::max(0.0, opening.depth - 0.03));
+                push(Label::window_frame, hole, opening.frame_depth);
                 break;
             case OpeningType::door:
                 push(Label::door, hole, opening.depth);
@@ -988,6 +1028,7 @@ Openings find_openings(const ScanMap& map, const SurfaceSample& sample,
     std::stable_sort(sides.begin(), sides.end(), [](const WallOpening& a, const WallOpening& b) {
         return merit(a) > merit(b);
     });
+    drop_niches(sides);
     Openings result;
     for (WallOpening& side : sides) {
         const bool is_known =

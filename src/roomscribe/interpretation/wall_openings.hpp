@@ -38,6 +38,7 @@ struct WallOpening {
     std::size_t storey = 0;    ///< of RoomSurfaces::storeys
     WallRectangle hole;        ///< a door's leaf, or a window's hole
     double depth = 0.0;        ///< m behind the face, of the leaf or the pane
+    double frame_depth = 0.0;  ///< m behind the face, of a window's frame and mullions
     double frame_width = 0.0;  ///< m; around a leaf, within a window's hole; 0 for none
     bool is_open = false;      ///< a door that stands open
     /// Of an open door, the patches of its leaf.
