@@ -227,6 +227,42 @@ struct HoleDepths {
     std::optional<double> middle;
 };
 
+/// The hole's edges to a fraction of a cell: of the cells on either side of an edge, as much
+/// belongs to the wall as rays ended on it there.
+WallRectangle measure_edges(const WallRelief& relief, const CellRectangle& hole) {
+    const auto open_share = [&](int left, int right, int low, int high) {
+        double open = 0.0;
+        double seen = 0.0;
+        for (int row = std::max(0, low); row < std::min(relief.num_rows, high); ++row) {
+            for (int column = std::max(0, left); column < std::min(relief.num_columns, right);
+                 ++column) {
+                const ReliefCell& cell = relief.at(column, row);
+                const double total = cell.surface + cell.open();
+                if (total == 0.0) continue;
+                ++seen;
+                open += cell.open() / total;
+            }
+        }
+        return seen > 0.0 ? std::optional(open / seen) : std::nullopt;
+    };
+    // How far the edge lies outwards of the rectangle of cells.
+    const auto outwards = [&](std::optional<double> inner, std::optional<double> outer) {
+        return relief.cell_size * (outer.value_or(0.0) - (1.0 - inner.value_or(1.0)));
+    };
+    const double left = outwards(open_share(hole.left, hole.left + 1, hole.low, hole.high),
+                                 open_share(hole.left - 1, hole.left, hole.low, hole.high));
+    const double right = outwards(open_share(hole.right - 1, hole.right, hole.low, hole.high),
+                                  open_share(hole.right, hole.right + 1, hole.low, hole.high));
+    const double below = outwards(open_share(hole.left, hole.right, hole.low, hole.low + 1),
+                                  open_share(hole.left, hole.right, hole.low - 1, hole.low));
+    const double above = outwards(open_share(hole.left, hole.right, hole.high - 1, hole.high),
+                                  open_share(hole.left, hole.right, hole.high, hole.high + 1));
+    return {relief.start + hole.left * relief.cell_size - left,
+            relief.start + hole.right * relief.cell_size + right,
+            relief.bottom + hole.low * relief.cell_size - below,
+            relief.bottom + hole.high * relief.cell_size + above};
+}
+
 /// What the cells of a hole tell.
 struct HoleEvidence {
     double seen = 0.0;           ///< share of the cells that are open
@@ -729,9 +765,7 @@ std::optional<WallOpening> OpeningFinder::judge(std::size_t storey, std::size_t 
     WallOpening opening;
     opening.storey = storey;
     opening.face = number;
-    opening.hole = {relief.start + cells.left * cell_size_, relief.start + cells.right * cell_size_,
-                    relief.bottom + cells.low * cell_size_,
-                    relief.bottom + cells.high * cell_size_};
+    opening.hole = measure_edges(relief, cells);
     WallRectangle& hole = opening.hole;
     const HoleEvidence evidence = look_into(relief, cells);
     opening.coverage = evidence.seen;

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+#include "roomscribe/interpretation/wall_relief.hpp"
+
+#include <limits>
+
+#include <gtest/gtest.h>
+
+namespace roomscribe {
+namespace {
+
+using Eigen::Vector3d;
+
+/// A wall of 4 x 2.4 m in the plane x = 0 that looks along x.
+WallFace wall() {
+    WallFace face;
+    face.room = 0;
+    face.plane = {Vector3d::UnitX(), 0.0};
+    face.along = Vector3d::UnitY();
+    face.start = 0.0;
+    face.end = 4.0;
+    return face;
+}
+
+/// A ray from the scanner through (0, y, z) that ends at x.
+void add_ray(ScanMap& map, const Vector3d& sensor, double y, double z, double x) {
+    const Vector3d direction = Vector3d(0.0, y, z) - sensor;
+    const Vector3d end = sensor + (sensor.x() - x) / sensor.x() * direction;
+    map.cloud.positions.push_back(end.cast<float>());
+}
+
+WallRelief measure(const ScanMap& map) {
+    return measure_wall_relief(map, wall(), Vector3d::UnitZ(), 0.0, 2.4, 0.01, 0.1);
+}
+
+TEST(WallRelief, TellsWhereRaysEnded) {
+    const Vector3d sensor(3.0, 2.0, 1.2);
+    ScanMap map;
+    add_ray(map, sensor, 0.55, 0.55, 0.0);   // on the wall
+    add_ray(map, sensor, 1.55, 0.55, -0.2);  // in a hole
+    add_ray(map, sensor, 2.55, 0.55, -3.0);  // through it
+    add_ray(map, sensor, 3.55, 0.55, 1.0);   // before it
+    add_ray(map, sensor, 0.55, 1.55, 0.03);  // on a casing
+    add_ray(map, sensor, 0.55, 9.0, 0.0);    // above the wall
+    map.cloud.positions.emplace_back(std::numeric_limits<float>::quiet_NaN(), 1.0F, 1.0F);
+    map.sections.push_back({"scan", 0, static_cast<std::uint32_t>(map.cloud.size()), sensor});
+    const WallRelief relief = measure(map);
+    EXPECT_TRUE(relief.has_rays);
+    EXPECT_EQ(relief.num_columns, 40);
+    EXPECT_EQ(relief.num_rows, 24);
+    EXPECT_EQ(relief.at(5, 5).surface, 1U);
+    EXPECT_EQ(relief.at(15, 5).recess, 1U);
+    EXPECT_EQ(relief.at(25, 5).through, 1U);
+    EXPECT_EQ(relief.at(35, 5).hidden, 1U);
+    std::uint32_t total = 0;
+    for (const ReliefCell& cell : relief.cells)
+        total += cell.surface + cell.open() + cell.hidden;
+    EXPECT_EQ(total, 5U);
+    // 0.2 m deep.
+    const std::size_t bin = static_cast<std::size_t>(0.2 / depth_bin);
+    EXPECT_EQ(relief.depths[relief.index(15, 5) * num_depth_bins + bin], 1U);
+}
+
+TEST(WallRelief, HearsNoScannerBehindTheWall) {
+    ScanMap map;
+    add_ray(map, Vector3d(3.0, 2.0, 1.2), 0.55, 0.55, -3.0);
+    map.sections.push_back({"scan", 0, 1, Vector3d(-2.0, 2.0, 1.2)});
+    const WallRelief relief = measure(map);
+    for (const ReliefCell& cell : relief.cells)
+        EXPECT_EQ(cell.surface + cell.open() + cell.hidden, 0U);
+}
+
+TEST(WallRelief, PlacesPointsOfUnknownScanners) {
+    ScanMap map;
+    map.cloud.positions.emplace_back(0.0F, 0.55F, 0.55F);
+    map.cloud.positions.emplace_back(-0.2F, 1.55F, 0.55F);
+    map.cloud.positions.emplace_back(-2.0F, 2.55F, 0.55F);
+    map.sections.push_back({"map", 0, 3, std::nullopt});
+    const WallRelief relief = measure(map);
+    EXPECT_FALSE(relief.has_rays);
+    EXPECT_EQ(relief.at(5, 5).surface, 1U);
+    EXPECT_EQ(relief.at(15, 5).recess, 1U);
+    EXPECT_EQ(relief.at(25, 5).open(), 0U);
+}
+
+}  // namespace
+}  // namespace roomscribe
