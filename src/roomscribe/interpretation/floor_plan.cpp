@@ -563,8 +563,10 @@ std::optional<std::size_t> FloorPlan::cell_at(const Vector2d& place) const {
 
 Vector2d FloorPlan::middle_of(std::size_t cell) const {
     const auto width = static_cast<std::size_t>(width_);
-    return low_ + cell_size_ * Vector2d(static_cast<double>(cell % width) + 0.5,
-                                        static_cast<double>(cell / width) + 0.5);
+    const std::size_t row = cell / width;
+    const std::size_t column = cell - row * width;
+    return low_ +
+           cell_size_ * Vector2d(static_cast<double>(column) + 0.5, static_cast<double>(row) + 0.5);
 }
 
 std::int32_t FloorPlan::room_at(const Vector2d& place) const {

@@ -47,8 +47,10 @@ class SurfaceBuilder {
           up_(upright.up()) {}
 
     void add_storey(const Storey& storey, StoreyLayout& layout);
-    std::vector<RoomSurface> take_surfaces() && { return std::move(surfaces_); }
-    std::vector<Room> take_rooms() && { return std::move(rooms_); }
+    void take(RoomSurfaces& result) && {
+        result.surfaces = std::move(surfaces_);
+        result.rooms = std::move(rooms_);
+    }
 
   private:
     using Outline = std::vector<Eigen::Vector2d>;
@@ -348,8 +350,7 @@ RoomSurfaces find_room_surfaces(const ScanMap& map, const SurfaceSample& sample,
         builder.add_storey(storeys[i], layout);
         result.storeys.push_back(std::move(layout));
     }
-    result.rooms = std::move(builder).take_rooms();
-    result.surfaces = std::move(builder).take_surfaces();
+    std::move(builder).take(result);
     if (upright.stop == UprightStop::ambiguous) doubt_all(result.surfaces);
     const auto& floor = storeys.front().floor;
     result.room_from_map = place_room(sample, patches, result.surfaces, upright,
