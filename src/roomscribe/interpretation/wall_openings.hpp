@@ -14,20 +14,8 @@
 
 namespace roomscribe {
 
-/// A rectangle on a wall's face: m along the wall (as WallFace::start) and m along up.
-struct WallRectangle {
-    double start = 0.0;
-    double end = 0.0;
-    double bottom = 0.0;
-    double top = 0.0;
-
-    double width() const { return end - start; }
-    double height() const { return top - bottom; }
-    double area() const { return width() * height(); }
-    WallRectangle grown(double left_right, double below, double above) const {
-        return {start - left_right, end + left_right, bottom - below, top + above};
-    }
-};
+/// m. Architraves are 44 to 95 mm wide.
+inline constexpr double casing_width = 0.06;
 
 enum class OpeningType : std::uint8_t { door, passage, window };
 

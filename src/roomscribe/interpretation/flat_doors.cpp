@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: MIT
+#include "roomscribe/interpretation/flat_doors.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+namespace roomscribe {
+namespace {
+
+/// Looks at all rectangles of a door's size that stand on the floor.
+class FlatDoorSearch {
+  public:
+    explicit FlatDoorSearch(const WallRelief& relief) : relief_(relief) {
+        const auto stride = static_cast<std::size_t>(relief.num_columns) + 1;
+        sums_.assign(stride * (static_cast<std::size_t>(relief.num_rows) + 1), Sum{});
+        for (int row = 0; row < relief.num_rows; ++row) {
+            for (int column = 0; column < relief.num_columns; ++column) {
+                const ReliefCell& cell = relief.at(column, row);
+                Sum sum;
+                if (cell.surface > 0 && cell.surface >= cell.open()) {
+                    const double mean = static_cast<double>(cell.height) / cell.surface;
+                    // Levers stand out, and what hangs on the wall.
+                    if (std::abs(mean) <= max_height) sum = {1.0, mean, mean * mean};
+                }
+                at(column + 1, row + 1) =
+                    sum + at(column, row + 1) + at(column + 1, row) - at(column, row);
+            }
+        }
+    }
+
+    std::vector<FlatDoor> run() const {
+        std::vector<FlatDoor> candidates;
+        const int high_low = cells(min_leaf_height);
+        const int high_high = std::min(cells(max_leaf_height), relief_.num_rows - cells(0.1));
+        for (int left = 0; left < relief_.num_columns; ++left) {
+            for (int width = cells(min_leaf_width); width <= cells(2.0 * max_flat_width); ++width) {
+                if (left + width > relief_.num_columns) break;
+                const double metres = width * relief_.cell_size;
+                if (metres > max_flat_width && metres < 2.0 * min_leaf_width) continue;
+                for (int high = high_low; high <= high_high; ++high) {
+                    const CellRectangle door{left, left + width, 0, high, 0.0};
+                    if (const auto found = look_at(door)) candidates.push_back(*found);
+                }
+            }
+        }
+        std::stable_sort(
+            candidates.begin(), candidates.end(),
+            [](const FlatDoor& a, const FlatDoor& b) { return a.contrast > b.contrast; });
+        std::vector<FlatDoor> doors;
+        for (const FlatDoor& candidate : candidates) {
+            const bool is_free =
+                std::none_of(doors.begin(), doors.end(), [&](const FlatDoor& door) {
+                    return candidate.cells.left < door.cells.right &&
+                           door.cells.left < candidate.cells.right;
+                });
+            if (is_free) doors.push_back(candidate);
+        }
+        return doors;
+    }
+
+  private:
+    static constexpr double max_height = 0.05;
+    static constexpr double min_leaf_width = 0.6;
+    static constexpr double max_flat_width = 1.15;
+    static constexpr double min_leaf_height = 1.88;
+    static constexpr double max_leaf_height = 2.2;
+    /// m. Twice what walls are out of true over 1 m (DIN 18202, table 3, line 7: 3 mm).
+    static constexpr double min_step = 0.006;
+    /// Standard errors of the difference of two strips; neighbouring cells err alike.
+    static constexpr double min_errors = 3.0;
+    static constexpr double correlated_cells = 8.0;
+    /// Of a step, by how much the leaf itself may bend.
+    static constexpr double max_bend = 0.4;
+
+    struct Sum {
+        double count = 0.0;
+        double heights = 0.0;
+        double squares = 0.0;
+
+        Sum operator+(const Sum& other) const {
+            return {count + other.count, heights + other.heights, squares + other.squares};
+        }
+        Sum operator-(const Sum& other) const {
+            return {count - other.count, heights - other.heights, squares - other.squares};
+        }
+        double mean() const { return heights / count; }
+        double variance_of_mean() const {
+            return correlated_cells * std::max(0.0, squares / count - mean() * mean()) / count;
+        }
+    };
+
+    int cells(double length) const {
+        return std::max(1, static_cast<int>(std::lround(length / relief_.cell_size)));
+    }
+    Sum& at(int column, int row) {
+        return sums_[static_cast<std::size_t>(row) *
+                         (static_cast<std::size_t>(relief_.num_columns) + 1) +
+                     static_cast<std::size_t>(column)];
+    }
+    const Sum& at(int column, int row) const {
+        return sums_[static_cast<std::size_t>(row) *
+                         (static_cast<std::size_t>(relief_.num_columns) + 1) +
+                     static_cast<std::size_t>(column)];
+    }
+    /// Of columns [left, right) and rows [low, high), if more than half of it was seen.
+    std::optional<Sum> strip(int left, int right, int low, int high) const {
+        if (left < 0 || low < 0 || right > relief_.num_columns || high > relief_.num_rows)
+            return std::nullopt;
+        const Sum sum = at(right, high) - at(left, high) - at(right, low) + at(left, low);
+        if (sum.count < 0.5 * (right - left) * (high - low) || sum.count < 4.0) return std::nullopt;
+        return sum;
+    }
+    /// How much the first strip lies before the second, in the least step that counts.
+    static double step(const Sum& a, const Sum& b) {
+        const double error = std::sqrt(a.variance_of_mean() + b.variance_of_mean());
+        return (a.mean() - b.mean()) / std::max(min_step, min_errors * error);
+    }
+
+    std::optional<FlatDoor> look_at(const CellRectangle& door) const {
+        const int gap = 1;  // cells half on either side
+        const int casing = cells(0.1);
+        const int inner = cells(0.2);
+        const int outer = cells(0.15);
+        const int low = cells(0.15);  // above skirtings
+        struct Side {
+            std::optional<Sum> leaf, casing, wall;
+        };
+        const Side sides[3] = {
+            {strip(door.left + gap, door.left + gap + inner, low, door.high),
+             strip(door.left - casing + gap, door.left, low, door.high),
+             strip(door.left - casing - outer, door.left - casing, low, door.high)},
+            {strip(door.right - gap - inner, door.right - gap, low, door.high),
+             strip(door.right, door.right + casing - gap, low, door.high),
+             strip(door.right + casing, door.right + casing + outer, low, door.high)},
+            {strip(door.left, door.right, door.high - gap - inner, door.high - gap),
+             strip(door.left, door.right, door.high, door.high + casing - gap),
+             strip(door.left, door.right, door.high + casing, door.high + casing + outer)}};
+        const auto leaf = strip(door.left + gap, door.right - gap, low, door.high - gap);
+        if (!leaf) return std::nullopt;
+        double lower = std::numeric_limits<double>::infinity();
+        double cased = lower;
+        double height = 0.0;
+        for (const Side& side : sides) {
+            if (!side.leaf) return std::nullopt;
+            if (!side.wall) return std::nullopt;
+            const double depth = side.wall->mean() - side.leaf->mean();
+            const bool is_flat = std::abs(side.leaf->mean() - leaf->mean()) <= max_bend * depth;
+            lower = std::min(lower, is_flat ? -step(*side.leaf, *side.wall) : 0.0);
+            height -= depth;
+            cased = std::min(cased, side.casing ? std::min(step(*side.casing, *side.wall),
+                                                           step(*side.casing, *side.leaf))
+                                                : 0.0);
+        }
+        const double contrast = std::max(lower, cased);
+        if (contrast < 1.0) return std::nullopt;
+        return FlatDoor{door, height / 3.0, contrast};
+    }
+
+    const WallRelief& relief_;
+    std::vector<Sum> sums_;
+};
+
+}  // namespace
+
+std::vector<FlatDoor> find_flat_doors(const WallRelief& relief) {
+    return FlatDoorSearch(relief).run();
+}
+
+}  // namespace roomscribe

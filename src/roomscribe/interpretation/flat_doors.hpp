@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vector>
+
+#include "roomscribe/interpretation/wall_holes.hpp"
+
+namespace roomscribe {
+
+/// A leaf that lies nearly in the plane of its wall.
+struct FlatDoor {
+    CellRectangle cells;
+    double height = 0.0;    ///< m, of the leaf before the wall beside it
+    double contrast = 0.0;  ///< in the least difference that counts
+};
+
+/// Closed leaves nearly in the plane of their wall: rectangles of a door's size, on the floor, that
+/// lie a few millimetres deeper than the wall on both sides and above, or have a casing around them
+/// that stands out. The clearest first; no two share a column.
+std::vector<FlatDoor> find_flat_doors(const WallRelief& relief);
+
+}  // namespace roomscribe

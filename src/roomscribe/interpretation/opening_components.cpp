@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: MIT
+#include "roomscribe/interpretation/opening_components.hpp"
+
+#include <algorithm>
+#include <array>
+#include <string>
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace roomscribe {
+namespace {
+
+using Eigen::Vector3d;
+
+/// The components of the openings, and the rooms that they lead to.
+class ComponentBuilder {
+  public:
+    ComponentBuilder(RoomSurfaces& surfaces, const Vector3d& up) : surfaces_(surfaces), up_(up) {
+        for (const RoomSurface& surface : surfaces.surfaces)
+            next_instance_ = std::max(next_instance_, surface.component.instance + 1);
+    }
+
+    void add(WallOpening& opening, std::vector<Component>& components) {
+        const StoreyLayout& layout = surfaces_.storeys[opening.storey];
+        const WallFace& face = layout.faces[opening.face];
+        const std::string wall = surfaces_.surfaces[layout.wall_of_face[opening.face]].component.id;
+        const auto push = [&](Label label, const WallRectangle& rectangle, double depth) {
+            Component component;
+            component.label = label;
+            const bool is_passage = label == Label::unknown;
+            if (is_passage) component.kind = "opening";
+            component.id = fmt::format("{}-{}", is_passage ? "opening" : label_name(label),
+                                       ++counts_[static_cast<std::size_t>(label)]);
+            component.instance = next_instance_++;
+            component.parent = wall;
+            const Vector3d on_plane = (face.plane.offset - depth) * face.plane.normal;
+            const auto corner = [&](double along, double height) -> Vector3d {
+                return on_plane + along * face.along + height * up_;
+            };
+            component.polygon = {
+                corner(rectangle.start, rectangle.bottom), corner(rectangle.end, rectangle.bottom),
+                corner(rectangle.end, rectangle.top), corner(rectangle.start, rectangle.top)};
+            component.confidence = opening.confidence;
+            component.verdict = opening.confidence >= 0.5 ? Verdict::accepted : Verdict::doubtful;
+            component.evidence.coverage = opening.coverage;
+            component.evidence.occluded = opening.hidden;
+            component.evidence.rule = rule_of(opening);
+            opening.components.push_back(components.size());
+            components.push_back(std::move(component));
+        };
+        const WallRectangle& hole = opening.hole;
+        const double width = opening.frame_width;
+        switch (opening.type) {
+            case OpeningType::window:
+                push(Label::window, hole.grown(-width, -width, -width), opening.depth);
+                push(Label::window_frame, hole, opening.frame_depth);
+                break;
+            case OpeningType::door:
+                push(Label::door, hole, opening.depth);
+                push(Label::door_frame, hole.grown(width, 0.0, width), casing_width);
+                connect(opening, layout, components[opening.components[0]].id);
+                break;
+            case OpeningType::passage:
+                push(Label::unknown, hole, opening.depth);
+                connect(opening, layout, components[opening.components[0]].id);
+                break;
+        }
+    }
+
+  private:
+    static std::string rule_of(const WallOpening& opening) {
+        switch (opening.type) {
+            case OpeningType::window:
+                return "hole in the wall that rays pass through, above the floor";
+            case OpeningType::passage:
+                return "hole in the wall that stands on the floor, without a leaf";
+            case OpeningType::door:
+                break;
+        }
+        if (!opening.is_open) return "leaf of a door's size in the wall, on the floor";
+        return opening.leaf_patches.empty() ? "hole of a door's size in the wall, on the floor"
+                                            : "hole of a door's size in the wall and its open leaf";
+    }
+
+    void connect(const WallOpening& opening, const StoreyLayout& layout, const std::string& id) {
+        const std::int32_t before = layout.faces[opening.face].room;
+        if (before == no_room || opening.room_behind == no_room) return;
+        const std::string& here = layout.room_ids[static_cast<std::size_t>(before)];
+        const std::string& there = layout.room_ids[static_cast<std::size_t>(opening.room_behind)];
+        for (Room& room : surfaces_.rooms) {
+            if (room.id == here) room.neighbors.push_back({there, id});
+            if (room.id == there) room.neighbors.push_back({here, id});
+        }
+    }
+
+    RoomSurfaces& surfaces_;
+    Vector3d up_;
+    std::int32_t next_instance_ = 0;
+    std::array<int, num_labels> counts_{};
+};
+
+}  // namespace
+
+std::vector<Component> make_opening_components(std::span<WallOpening> openings,
+                                               RoomSurfaces& surfaces, const Vector3d& up) {
+    std::vector<Component> components;
+    ComponentBuilder builder(surfaces, up);
+    for (WallOpening& opening : openings)
+        builder.add(opening, components);
+    return components;
+}
+
+}  // namespace roomscribe

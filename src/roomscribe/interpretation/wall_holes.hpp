@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "roomscribe/interpretation/wall_relief.hpp"
+
+namespace roomscribe {
+
+/// A rectangle of cells: columns [left, right), rows [low, high).
+struct CellRectangle {
+    int left = 0;
+    int right = 0;
+    int low = 0;
+    int high = 0;
+    double sum = 0.0;
+};
+
+/// m. Hatches and vents are smaller than a window: smaller holes are not looked for.
+inline constexpr double min_window_side = 0.35;
+
+enum class HoleSide : std::uint8_t { left, right, bottom, top };
+
+/// m, at which the cells along the sides lie, and those in the middle, as most of them do.
+struct HoleDepths {
+    std::optional<double> rim;
+    std::optional<double> middle;
+};
+
+/// What the cells of a hole tell.
+struct HoleEvidence {
+    double seen = 0.0;           ///< share of the cells that are open
+    double hidden = 0.0;         ///< share of the cells that only hidden rays were aimed at
+    double opaque = 0.0;         ///< share of the open rays that ended in the hole
+    double through_share = 0.0;  ///< share of the open cells that most rays went through
+    double depth = 0.0;          ///< m, at which most of these ended
+    double at_depth = 0.0;       ///< share of them that did near it
+    /// By side: share of the cells closely around it that are wall, if enough were seen.
+    std::array<std::optional<double>, 4> rim;
+    double framed = 0.0;  ///< share of the cells along its sides in which rays ended
+    /// By how much cells without a return are more frequent among the open ones, as panes leave
+    /// them, than in the wall around.
+    double lost = 0.0;
+    HoleDepths depths;
+
+    /// m, by how much the middle lies deeper than the sides.
+    double sunk() const { return depths.rim && depths.middle ? *depths.middle - *depths.rim : 0.0; }
+};
+
+/// The holes of a wall's face: of each group of open cells the rectangle that holds the most of
+/// them and the least wall. Cells that nothing was seen of do not part a group.
+std::vector<CellRectangle> find_wall_holes(const WallRelief& relief);
+
+HoleEvidence look_into(const WallRelief& relief, const CellRectangle& hole);
+
+/// Whether wall was seen on three sides, or two of a hole on the floor, and nothing else on any.
+bool is_framed_by_wall(const HoleEvidence& evidence, bool stands_on_floor);
+
+/// The hole's edges to a fraction of a cell: of the cells on either side of an edge, as much
+/// belongs to the wall as rays ended on it there.
+WallRectangle measure_edges(const WallRelief& relief, const CellRectangle& hole);
+
+/// Width of the frame within a window's hole, m: from its sides inwards to where rays pass; nothing
+/// where that tells no likely width.
+std::optional<double> measure_frame(const WallRelief& relief, const CellRectangle& hole);
+
+}  // namespace roomscribe
