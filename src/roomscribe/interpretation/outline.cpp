@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <utility>
 
 #include "roomscribe/geometry/polygon.hpp"
@@ -125,8 +124,7 @@ void Digger::simplify(double tolerance) {
     }
 }
 
-}  // namespace
-
+/// One point per square of a grid, for where the others would make no difference.
 std::vector<Eigen::Vector2d> thin_points(std::span<const Eigen::Vector2d> points,
                                          double cell_size) {
     std::vector<std::pair<Cell, std::uint32_t>> cells;
@@ -142,6 +140,8 @@ std::vector<Eigen::Vector2d> thin_points(std::span<const Eigen::Vector2d> points
     return result;
 }
 
+}  // namespace
+
 std::vector<Eigen::Vector2d> concave_outline(std::span<const Eigen::Vector2d> points,
                                              double max_edge, double tolerance) {
     std::vector<Vector2> hull = convex_hull(points);
@@ -150,42 +150,6 @@ std::vector<Eigen::Vector2d> concave_outline(std::span<const Eigen::Vector2d> po
     digger.dig(max_edge);
     digger.simplify(tolerance);
     return std::move(digger).take();
-}
-
-std::vector<std::uint32_t> link_points(std::span<const Eigen::Vector2d> points, double gap) {
-    constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
-    constexpr std::int64_t reach = 4;
-    const double size = std::max(gap, 1e-6) / static_cast<double>(reach);
-    std::map<Cell, std::uint32_t> group_of_cell;
-    for (const Vector2& point : points)
-        group_of_cell.emplace(cell_of(point, size), none);
-
-    std::uint32_t num_groups = 0;
-    std::vector<std::uint32_t> result;
-    result.reserve(points.size());
-    for (const Vector2& point : points) {
-        std::uint32_t& group = group_of_cell.at(cell_of(point, size));
-        if (group == none) {
-            group = num_groups++;
-            std::vector<Cell> front{cell_of(point, size)};
-            while (!front.empty()) {
-                const Cell cell = front.back();
-                front.pop_back();
-                for (std::int64_t x = cell.first - reach; x <= cell.first + reach; ++x) {
-                    auto next = group_of_cell.lower_bound({x, cell.second - reach});
-                    for (; next != group_of_cell.end() && next->first.first == x &&
-                           next->first.second <= cell.second + reach;
-                         ++next) {
-                        if (next->second != none) continue;
-                        next->second = group;
-                        front.push_back(next->first);
-                    }
-                }
-            }
-        }
-        result.push_back(group);
-    }
-    return result;
 }
 
 }  // namespace roomscribe

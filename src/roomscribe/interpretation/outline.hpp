@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -16,12 +15,5 @@ namespace roomscribe {
 /// all points up to about `tolerance`. Fewer than 3 corners if the points are fewer or on one line.
 std::vector<Eigen::Vector2d> concave_outline(std::span<const Eigen::Vector2d> points,
                                              double max_edge, double tolerance);
-
-/// One point per square of a grid, for where a cell's other points would make no difference.
-std::vector<Eigen::Vector2d> thin_points(std::span<const Eigen::Vector2d> points, double cell_size);
-
-/// Groups of points such that every point is nearer than about `gap` to another one of its group:
-/// the group's number per point, counted from 0 in the order of their first points.
-std::vector<std::uint32_t> link_points(std::span<const Eigen::Vector2d> points, double gap);
 
 }  // namespace roomscribe

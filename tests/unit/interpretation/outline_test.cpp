@@ -80,16 +80,5 @@ TEST(ConcaveOutline, HasFewerThanThreeCornersForPointsOnALine) {
     EXPECT_TRUE(concave_outline({}, 0.5, 0.01).empty());
 }
 
-TEST(ThinPoints, KeepsOnePointPerSquare) {
-    const std::vector<Eigen::Vector2d> points{{0.1, 0.1}, {0.2, 0.3}, {1.4, 0.2}, {-0.3, 0.2}};
-    EXPECT_EQ(thin_points(points, 1.0).size(), 3U);
-}
-
-TEST(LinkPoints, PartsWhatAGapParts) {
-    const std::vector<Eigen::Vector2d> points{{0.0, 0.0}, {9.0, 0.0}, {0.5, 0.0}, {9.5, 0.0}};
-    EXPECT_EQ(link_points(points, 1.0), (std::vector<std::uint32_t>{0, 1, 0, 1}));
-    EXPECT_EQ(link_points(points, 20.0), (std::vector<std::uint32_t>{0, 0, 0, 0}));
-}
-
 }  // namespace
 }  // namespace roomscribe
