@@ -9,7 +9,7 @@
 
 #include "roomscribe/core/error.hpp"
 #include "roomscribe/core/parallel.hpp"
-#include "roomscribe/interpretation/standing_things.hpp"
+#include "roomscribe/interpretation/furniture/standing_things.hpp"
 
 namespace roomscribe {
 namespace {
@@ -182,7 +182,6 @@ class OpeningTest {
         const double along = static_cast<double>(along_.dot(point));
         const double above = static_cast<double>(up_.dot(point));
         if (!is_in(frame_, along, above)) return std::nullopt;
-        if (opening_.type == OpeningType::passage) return std::nullopt;
         const auto leaf_depth = static_cast<float>(opening_.depth);
         if (opening_.type == OpeningType::window) {
             const auto frame_depth = static_cast<float>(opening_.frame_depth);

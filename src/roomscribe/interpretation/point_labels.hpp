@@ -6,8 +6,8 @@
 #include "roomscribe/core/context.hpp"
 #include "roomscribe/core/settings.hpp"
 #include "roomscribe/geometry/point_cloud.hpp"
-#include "roomscribe/interpretation/room_surfaces.hpp"
-#include "roomscribe/interpretation/wall_openings.hpp"
+#include "roomscribe/interpretation/openings/wall_openings.hpp"
+#include "roomscribe/interpretation/rooms/room_surfaces.hpp"
 #include "roomscribe/model/scene.hpp"
 #include "roomscribe/structure/surface_sample.hpp"
 

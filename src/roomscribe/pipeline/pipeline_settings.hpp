@@ -9,8 +9,8 @@
 
 #include "roomscribe/core/settings.hpp"
 #include "roomscribe/interpretation/point_labels.hpp"
-#include "roomscribe/interpretation/room_surfaces.hpp"
-#include "roomscribe/interpretation/upright.hpp"
+#include "roomscribe/interpretation/rooms/room_surfaces.hpp"
+#include "roomscribe/interpretation/upright/upright.hpp"
 #include "roomscribe/registration/scan_registration.hpp"
 #include "roomscribe/structure/principal_axes.hpp"
 #include "roomscribe/structure/surface_sample.hpp"

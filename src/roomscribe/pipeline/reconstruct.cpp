@@ -5,7 +5,7 @@
 #include <iterator>
 #include <utility>
 
-#include "roomscribe/interpretation/wall_openings.hpp"
+#include "roomscribe/interpretation/openings/wall_openings.hpp"
 #include "roomscribe/structure/planar_surfaces.hpp"
 #include "roomscribe/structure/plane_hough.hpp"
 #include "roomscribe/structure/plane_ransac.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "roomscribe/interpretation/floor_plan.hpp"
+#include "roomscribe/interpretation/rooms/floor_plan.hpp"
 
 #include <gtest/gtest.h>
 

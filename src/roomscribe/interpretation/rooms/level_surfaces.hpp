@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "roomscribe/interpretation/room_surfaces_settings.hpp"
+#include "roomscribe/interpretation/rooms/room_surfaces_settings.hpp"
 #include "roomscribe/structure/planar_patch.hpp"
 #include "roomscribe/structure/surface_sample.hpp"
 

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "roomscribe/interpretation/wall_holes.hpp"
+#include "roomscribe/interpretation/openings/wall_holes.hpp"
 
 namespace roomscribe {
 

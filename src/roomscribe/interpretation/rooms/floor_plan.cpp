@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "roomscribe/interpretation/floor_plan.hpp"
+#include "roomscribe/interpretation/rooms/floor_plan.hpp"
 
 #include <algorithm>
 #include <array>
@@ -26,9 +26,6 @@ constexpr double max_reach = 60.0;
 /// m, of the slices in which upright surface is counted.
 constexpr double slice_height = 0.1;
 constexpr int num_slices = 64;
-/// m. Cornices hide the rest of a wall under the ceiling; a lintel is higher (doors 2.1 m, ceilings
-/// 2.4 m and more), and wardrobes end lower.
-constexpr double lintel_reach = 0.3;
 /// m. Widest opening that is closed between two pieces of one line where no lintel shows: a door
 /// of 1.1 m and its frame (DIN 18101).
 constexpr double max_door_gap = 1.3;
@@ -37,10 +34,6 @@ constexpr double max_door_gap = 1.3;
 constexpr double max_opening = 2.2;
 /// m2. The smallest room, a WC, has 0.9 x 1.2 m.
 constexpr double min_room_area = 0.8;
-/// m. More than a beam is deep.
-constexpr double min_wall_height = 0.9;
-/// m above the floor. Higher than desks, base units and sideboards.
-constexpr double min_free_wall_top = 1.2;
 /// Of a place on a wall whose top was not seen.
 constexpr int min_slices = 3;
 /// Rays that are traced for free space.
@@ -75,8 +68,13 @@ struct PlanCell {
 class PlanDrawer {
   public:
     PlanDrawer(const SurfaceSample& sample, std::span<const PlanarPatch> patches,
-               const Eigen::Matrix3d& room_from_map, const Storey& storey)
-        : sample_(sample), patches_(patches), room_from_map_(room_from_map), storey_(storey) {}
+               const Eigen::Matrix3d& room_from_map, const Storey& storey,
+               const RoomSurfacesSettings& settings)
+        : sample_(sample),
+          patches_(patches),
+          room_from_map_(room_from_map),
+          storey_(storey),
+          settings_(settings) {}
 
     FloorPlan run(const ScanMap& map, std::span<const UprightSurface> surfaces,
                   const Context& context);
@@ -113,6 +111,7 @@ class PlanDrawer {
     std::span<const PlanarPatch> patches_;
     Eigen::Matrix3d room_from_map_;
     const Storey& storey_;
+    const RoomSurfacesSettings& settings_;
     double floor_ = 0.0;
     FloorPlan plan_;
     std::vector<PlanCell> cells_;
@@ -130,15 +129,13 @@ void PlanDrawer::for_each_neighbor(std::size_t cell, int reach, Visit&& visit) c
     }
 }
 
-/// The raster over all level surface of the storey and the scanners. False if there is none.
+/// The raster over all level surface of the storey. False if there is none.
 bool PlanDrawer::lay_out() {
     std::vector<double> xs;
     std::vector<double> ys;
-    double lowest = std::numeric_limits<double>::infinity();
     const auto include = [&](const Vector3d& point) {
         xs.push_back(point.x());
         ys.push_back(point.y());
-        lowest = std::min(lowest, point.z());
     };
     for (const Level& level : storey_.ceilings)
         for_each_voxel(level, include);
@@ -243,10 +240,8 @@ std::optional<double> PlanDrawer::ceiling_near(const Vector2d& place) const {
 bool PlanDrawer::has_level_behind(const Vector2d& place, const Vector2d& normal) const {
     constexpr double nearest = 0.1;
     constexpr double farthest = 0.4;
-    for (double depth = nearest; depth <= farthest; depth += plan_.cell_size()) {
-        if (plan_.has_level_at(place - depth * normal)) return true;
-    }
-    return false;
+    return plan_.any_along(place, -normal, nearest, farthest,
+                           [&](const Vector2d& behind) { return plan_.has_level_at(behind); });
 }
 
 /// Marks the cells on the surface's line along which it parts rooms.
@@ -278,15 +273,16 @@ void PlanDrawer::draw_barrier(const UprightSurface& surface) {
         return !has_level_behind(place, normal) ||
                (!sample_.normals_face_scanner && !has_level_behind(place, -normal));
     };
-    const bool is_tall =
-        surface.height() >= min_wall_height && surface.top >= floor_ + min_free_wall_top;
+    const bool is_tall = surface.height() >= settings_.min_wall_height &&
+                         surface.top >= floor_ + settings_.min_closing_top;
     std::vector<bool> parts(count, false);
     for (std::size_t i = 0; i < count; ++i) {
         const double middle = static_cast<double>(i) + 0.5;
         const auto ceiling = ceiling_near(place_of(middle));
         const double top = ceiling.value_or(0.0) - floor_;
         const bool has_lintel =
-            ceiling && (slices[i] & slices_between(top - lintel_reach, top + slice_height)) != 0;
+            ceiling &&
+            (slices[i] & slices_between(top - settings_.ceiling_reach, top + slice_height)) != 0;
         const bool is_body = !ceiling && share_of(slices[i], body) >= 0.6;
         const bool is_last = is_tall && std::popcount(slices[i]) >= min_slices && closes(middle);
         parts[i] = has_lintel || is_body || is_last;
@@ -458,7 +454,7 @@ void PlanDrawer::choose_rooms() {
             (!knows_scanners || count.closed_rim >= min_closed_share * count.rim);
         if (!count.holds_scanner && !has_ceiling && !is_walled) continue;
         number[i] = static_cast<std::int32_t>(plan_.rooms.size());
-        plan_.rooms.emplace_back().holds_scanner = count.holds_scanner;
+        plan_.rooms.emplace_back();
     }
     for (std::int32_t& room : plan_.room_of_cell) {
         if (room != no_room) room = number[static_cast<std::size_t>(room)];
@@ -489,7 +485,6 @@ void PlanDrawer::describe_rooms() {
     for (std::size_t cell = 0; cell < cells_.size(); ++cell) {
         if (plan_.room_of_cell[cell] == no_room) continue;
         const auto room = static_cast<std::size_t>(plan_.room_of_cell[cell]);
-        plan_.rooms[room].area += plan_.cell_size() * plan_.cell_size();
         if (!std::isnan(cells_[cell].ceiling)) ceilings[room].push_back(cells_[cell].ceiling);
     }
     for (std::size_t room = 0; room < plan_.rooms.size(); ++room) {
@@ -587,8 +582,9 @@ bool FloorPlan::has_level_at(const Vector2d& place) const {
 FloorPlan draw_floor_plan(const ScanMap& map, const SurfaceSample& sample,
                           std::span<const PlanarPatch> patches,
                           const Eigen::Matrix3d& room_from_map, const Storey& storey,
-                          std::span<const UprightSurface> surfaces, const Context& context) {
-    return PlanDrawer(sample, patches, room_from_map, storey).run(map, surfaces, context);
+                          std::span<const UprightSurface> surfaces,
+                          const RoomSurfacesSettings& settings, const Context& context) {
+    return PlanDrawer(sample, patches, room_from_map, storey, settings).run(map, surfaces, context);
 }
 
 std::vector<Vector2d> trace_room(const FloorPlan& plan, std::int32_t room) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "roomscribe/interpretation/outline.hpp"
+#include "roomscribe/interpretation/rooms/outline.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "roomscribe/interpretation/level_surfaces.hpp"
+#include "roomscribe/interpretation/rooms/level_surfaces.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -9,8 +9,8 @@
 #include <Eigen/Core>
 
 #include "roomscribe/core/context.hpp"
-#include "roomscribe/interpretation/level_surfaces.hpp"
-#include "roomscribe/interpretation/upright_surfaces.hpp"
+#include "roomscribe/interpretation/rooms/level_surfaces.hpp"
+#include "roomscribe/interpretation/rooms/upright_surfaces.hpp"
 #include "roomscribe/model/scan.hpp"
 
 namespace roomscribe {
@@ -23,8 +23,6 @@ struct PlanRoom {
     double floor_height = 0.0;             ///< m along up
     std::optional<double> ceiling_height;  ///< median of what was seen of it
     std::optional<double> lowest_ceiling;  ///< 3 % of it is lower
-    double area = 0.0;                     ///< m2, of its cells
-    bool holds_scanner = false;
 };
 
 /// The rooms of a storey in a raster seen from above. Places are x and y of the room frame without
@@ -52,6 +50,17 @@ class FloorPlan {
     /// Whether floor or ceiling was seen there.
     bool has_level_at(const Eigen::Vector2d& place) const;
 
+    /// Whether `test(place)` holds anywhere from `nearest` to `farthest` m from a place in a
+    /// direction, a unit vector, looked at a cell's width at a time.
+    template <typename Test>
+    bool any_along(const Eigen::Vector2d& place, const Eigen::Vector2d& direction, double nearest,
+                   double farthest, Test&& test) const {
+        for (double depth = nearest; depth <= farthest; depth += cell_size_) {
+            if (test(Eigen::Vector2d(place + depth * direction))) return true;
+        }
+        return false;
+    }
+
     std::vector<std::int32_t> room_of_cell;
     std::vector<bool> is_barrier;  ///< per cell
     std::vector<bool> has_level;   ///< per cell: floor or ceiling was seen
@@ -74,7 +83,8 @@ class FloorPlan {
 FloorPlan draw_floor_plan(const ScanMap& map, const SurfaceSample& sample,
                           std::span<const PlanarPatch> patches,
                           const Eigen::Matrix3d& room_from_map, const Storey& storey,
-                          std::span<const UprightSurface> surfaces, const Context& context = {});
+                          std::span<const UprightSurface> surfaces,
+                          const RoomSurfacesSettings& settings, const Context& context = {});
 
 /// The outline of a room: the rim of its cells without steps, counter-clockwise, in the plan's
 /// coordinates. Empty for a room without cells.

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "roomscribe/interpretation/wall_faces.hpp"
+#include "roomscribe/interpretation/rooms/wall_faces.hpp"
 #include "roomscribe/model/scan.hpp"
 
 namespace roomscribe {

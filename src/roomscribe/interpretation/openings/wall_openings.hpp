@@ -5,11 +5,12 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include "roomscribe/core/context.hpp"
-#include "roomscribe/interpretation/room_surfaces.hpp"
-#include "roomscribe/interpretation/wall_relief.hpp"
+#include "roomscribe/interpretation/openings/wall_relief.hpp"
+#include "roomscribe/interpretation/rooms/room_surfaces.hpp"
 #include "roomscribe/model/scene.hpp"
 
 namespace roomscribe {
@@ -17,7 +18,7 @@ namespace roomscribe {
 /// m. Architraves are 44 to 95 mm wide.
 inline constexpr double casing_width = 0.06;
 
-enum class OpeningType : std::uint8_t { door, passage, window };
+enum class OpeningType : std::uint8_t { door, window };
 
 /// A hole in a wall, and what fills it.
 struct WallOpening {
@@ -35,6 +36,8 @@ struct WallOpening {
     double coverage = 0.0;  ///< share of the hole that was seen into
     double hidden = 0.0;    ///< share that something stands before
     double confidence = 0.0;
+    std::string_view rule;         ///< that it was told by, in words
+    std::string_view alternative;  ///< the rival reading; not empty if doubtful
     /// Numbers of its components in Openings::components; door and window first.
     std::vector<std::size_t> components;
 };
@@ -44,16 +47,16 @@ struct Openings {
     std::vector<Component> components;
 };
 
-/// Doors, windows and passages with their frames, by the paper's rules of size and place (its Table
+/// Doors and windows with their frames, by the paper's rules of size and place (its Table
 /// 3: a door on the edge of a wall and close to the floor, a window embedded in the wall and higher
 /// up) and beyond it.
 ///
-/// Each wall's face is looked at cell by cell (measure_wall_relief). Holes are the rectangles that
-/// hold the most open cells and the least wall; closed leaves that lie in their wall's plane show
-/// as planar patches of a door's size. A hole at the floor as high as a door is a door where a leaf
-/// fills it or stands open beside it, else a passage; a hole above the floor that rays passed
-/// through is a window. What opens to both sides of a wall is one opening. Instances are counted on
-/// from `surfaces`.
+/// Each wall's face is looked at cell by cell (measure_wall_relief). A hole (find_wall_holes) at
+/// the floor as high as a door is a door, closed where a leaf fills it, doubtful where no leaf was
+/// seen: passages have none. A hole above the floor that shows signs of glass, or is like one that
+/// does, is a window. Closed leaves nearly in the plane of their wall are found by find_flat_doors.
+/// What opens to both sides of a wall is one opening. Instances are counted on from `surfaces`,
+/// whose rooms learn their neighbours.
 Openings find_openings(const ScanMap& map, const SurfaceSample& sample,
                        std::span<const PlanarPatch> patches, RoomSurfaces& surfaces,
                        const Eigen::Matrix3d& room_from_map, double point_spacing,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "roomscribe/interpretation/room_surfaces.hpp"
+#include "roomscribe/interpretation/rooms/room_surfaces.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -12,12 +12,12 @@
 #include <fmt/format.h>
 
 #include "roomscribe/geometry/polygon.hpp"
-#include "roomscribe/interpretation/axis_profile.hpp"
-#include "roomscribe/interpretation/floor_plan.hpp"
-#include "roomscribe/interpretation/level_surfaces.hpp"
-#include "roomscribe/interpretation/outline.hpp"
-#include "roomscribe/interpretation/upright_surfaces.hpp"
-#include "roomscribe/interpretation/wall_faces.hpp"
+#include "roomscribe/interpretation/rooms/floor_plan.hpp"
+#include "roomscribe/interpretation/rooms/level_surfaces.hpp"
+#include "roomscribe/interpretation/rooms/outline.hpp"
+#include "roomscribe/interpretation/rooms/upright_surfaces.hpp"
+#include "roomscribe/interpretation/rooms/wall_faces.hpp"
+#include "roomscribe/interpretation/upright/axis_profile.hpp"
 
 namespace roomscribe {
 namespace {
@@ -179,8 +179,6 @@ void SurfaceBuilder::add_sloping_ceiling(std::uint32_t patch, const Storey& stor
 
 void SurfaceBuilder::add_wall(const WallFace& face, const Storey& storey, const std::string& parent,
                               std::optional<double> ceiling) {
-    constexpr double floor_reach = 0.3;  // skirtings, cables and boxes hide a wall's foot
-    constexpr double ceiling_reach = 0.3;
     RoomSurface surface = start(Label::wall, parent, face.voxels);
     surface.plane = face.plane;
     const double bottom = storey.floor ? storey.floor->height : face.bottom;
@@ -191,17 +189,16 @@ void SurfaceBuilder::add_wall(const WallFace& face, const Storey& storey, const 
                          on_plane + face.end * face.along + bottom * up_,
                          on_plane + face.end * face.along + top * up_,
                          on_plane + face.start * face.along + top * up_};
-    const bool reaches_floor = storey.floor && face.bottom <= storey.floor->height + floor_reach;
-    const bool reaches_ceiling = ceiling && face.top >= *ceiling - ceiling_reach;
     // The shares that were right over simulated scenes (docs/scorecard.md).
-    component.confidence = reaches_floor && reaches_ceiling ? 0.93 : 0.5;
-    component.verdict = reaches_floor && reaches_ceiling ? Verdict::accepted : Verdict::doubtful;
-    component.evidence.rule = reaches_ceiling
+    component.confidence = face.reaches_floor && face.reaches_ceiling ? 0.93 : 0.5;
+    component.verdict =
+        face.reaches_floor && face.reaches_ceiling ? Verdict::accepted : Verdict::doubtful;
+    component.evidence.rule = face.reaches_ceiling
                                   ? "upright surface that closes the room and reaches the ceiling"
                                   : "upright surface that closes the room";
     if (component.verdict == Verdict::doubtful) {
         component.evidence.alternative =
-            reaches_ceiling ? "beam or soffit" : "front or side of a tall piece of furniture";
+            face.reaches_ceiling ? "beam or soffit" : "front or side of a tall piece of furniture";
     }
     component.evidence.rms = face.rms;
     component.evidence.coverage =
@@ -233,14 +230,15 @@ void SurfaceBuilder::add_storey(const Storey& storey, StoreyLayout& layout) {
         room.id = fmt::format("room-{}", rooms_.size() + 1);
         add_pieces(number, room.id, outline);
         layout.room_ids.push_back(room.id);
+        // Where no ceiling was seen, as high as the walls were.
+        double highest = seen.ceiling_height.value_or(seen.floor_height);
         for (std::size_t f = 0; f < faces.size(); ++f) {
             if (faces[f].room != number) continue;
             layout.wall_of_face[f] = surfaces_.size();
             add_wall(faces[f], storey, room.id, seen.ceiling_height);
             room.walls.push_back(surfaces_.back().component.id);
+            if (!seen.ceiling_height) highest = std::max(highest, faces[f].top);
         }
-        const double highest =
-            seen.ceiling_height.value_or(seen.floor_height);  // no ceiling seen: no height known
         room.floor_height = seen.floor_height;
         room.ceiling_height = highest;
         room.area = signed_area(outline);
@@ -343,7 +341,7 @@ RoomSurfaces find_room_surfaces(const ScanMap& map, const SurfaceSample& sample,
         const auto surfaces = find_upright_surfaces(sample, patches, up, from, to, settings);
         StoreyLayout layout;
         layout.plan = draw_floor_plan(map, sample, patches, upright.room_from_map, storeys[i],
-                                      surfaces, context);
+                                      surfaces, settings, context);
         layout.faces = find_wall_faces(sample, patches, surfaces, layout.plan,
                                        upright.room_from_map, settings);
         if (!layout.plan.rooms.empty()) layout.floor_height = layout.plan.rooms[0].floor_height;

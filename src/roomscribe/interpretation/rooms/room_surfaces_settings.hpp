@@ -11,6 +11,7 @@ struct RoomSurfacesSettings {
     double ceiling_reach = 0.3;
     double min_wall_height = 0.9;
     double min_free_wall_height = 1.5;
+    double min_closing_top = 1.2;
     double max_gap = 2.5;
 
     void visit(SettingVisitor& visitor) {
@@ -32,8 +33,8 @@ struct RoomSurfacesSettings {
              .unit = "m",
              .min = 0.0,
              .max = 10.0,
-             .doc = "A wall is seen to this distance from the ceiling (beams, cornices and lamps "
-                    "may hide the rest); a cupboard ends lower."});
+             .doc = "A wall is seen to this distance from the ceiling (cornices and lamps may hide "
+                    "the rest, a lintel over a door is higher); a wardrobe ends lower."});
         visitor(min_wall_height,
                 {.name = "min_wall_height",
                  .unit = "m",
@@ -49,6 +50,13 @@ struct RoomSurfacesSettings {
              .max = 10.0,
              .doc = "Least height seen of a wall where no ceiling was seen: more than a desk or "
                     "a kitchen base unit with its back panel."});
+        visitor(min_closing_top,
+                {.name = "min_closing_top",
+                 .unit = "m",
+                 .min = 0.0,
+                 .max = 10.0,
+                 .doc = "A surface behind which nothing was seen closes a room if it reaches so "
+                        "high above the floor: desks, base units and sideboards are lower."});
         visitor(max_gap,
                 {.name = "max_gap",
                  .unit = "m",

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "roomscribe/interpretation/standing_things.hpp"
+#include "roomscribe/interpretation/furniture/standing_things.hpp"
 
 #include <algorithm>
 #include <array>

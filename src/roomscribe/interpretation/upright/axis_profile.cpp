@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "roomscribe/interpretation/axis_profile.hpp"
+#include "roomscribe/interpretation/upright/axis_profile.hpp"
 
 #include <algorithm>
 #include <cmath>

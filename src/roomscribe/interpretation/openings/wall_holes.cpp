@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "roomscribe/interpretation/wall_holes.hpp"
+#include "roomscribe/interpretation/openings/wall_holes.hpp"
 
 #include <algorithm>
 #include <cmath>

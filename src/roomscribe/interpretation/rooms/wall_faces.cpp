@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "roomscribe/interpretation/wall_faces.hpp"
+#include "roomscribe/interpretation/rooms/wall_faces.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -26,8 +26,6 @@ constexpr double min_face_area = 0.2;
 constexpr double min_closing_area = 1.0;
 /// m. Skirtings, cables and boxes hide a wall's foot.
 constexpr double foot_reach = 0.3;
-/// m above the floor. Desks, base units and sideboards are lower.
-constexpr double min_closing_top = 1.2;
 /// m. Narrower faces are reveals and the sides of posts.
 constexpr double min_face_width = 0.35;
 /// m. Leaves and panes lie no deeper in their wall.
@@ -60,6 +58,8 @@ class FaceFinder {
     void add_side(const UprightSurface& surface, const Plane& plane);
     void split(std::int32_t room, const Plane& plane, double rms,
                std::vector<std::pair<double, std::uint32_t>> voxels);
+    template <typename Test>
+    double share_behind(const WallFace& face, double nearest, double farthest, Test&& test) const;
     bool is_last(const WallFace& face) const;
     bool has_level_behind(const WallFace& face) const;
     bool is_wall(const WallFace& face) const;
@@ -140,63 +140,56 @@ void FaceFinder::split(std::int32_t room, const Plane& plane, double rms,
         face.bottom = quantile(heights, stray_share);
         face.top = quantile(heights, 1.0 - stray_share);
         face.area = voxel_area * static_cast<double>(face.voxels.size());
+        const PlanRoom& seen = plan_.rooms[static_cast<std::size_t>(room)];
+        face.reaches_floor = face.bottom <= seen.floor_height + foot_reach;
+        face.reaches_ceiling =
+            seen.lowest_ceiling && face.top >= *seen.lowest_ceiling - settings_.ceiling_reach;
         if (face.area >= min_face_area && face.width() >= min_face_width && is_wall(face))
             faces_.push_back(std::move(face));
     }
 }
 
+/// Share of the face's voxels behind which `test(place)` holds somewhere.
+template <typename Test>
+double FaceFinder::share_behind(const WallFace& face, double nearest, double farthest,
+                                Test&& test) const {
+    const Vector2d backwards = -(room_from_map_ * face.plane.normal).head<2>();
+    std::size_t count = 0;
+    for (const std::uint32_t voxel : face.voxels) {
+        const Vector3d point = room_from_map_ * sample_.cloud.positions[voxel].cast<double>();
+        count += plan_.any_along(point.head<2>(), backwards, nearest, farthest, test) ? 1 : 0;
+    }
+    return static_cast<double>(count) / static_cast<double>(face.voxels.size());
+}
+
 /// Whether the building seems to end at the face: behind it lies neither floor nor ceiling, as it
 /// does behind furniture, nor a wall.
 bool FaceFinder::is_last(const WallFace& face) const {
-    constexpr double min_share = 0.8;
-    std::size_t num_open = 0;
-    for (const std::uint32_t voxel : face.voxels) {
-        const Vector3d point = sample_.cloud.positions[voxel].cast<double>();
-        for (double depth = 2.5 * plan_.cell_size(); depth <= max_furniture_depth;
-             depth += plan_.cell_size()) {
-            const Vector3d place = room_from_map_ * (point - depth * face.plane.normal);
-            if (!plan_.has_level_at(place.head<2>()) && !plan_.is_barrier_at(place.head<2>()))
-                continue;
-            ++num_open;
-            break;
-        }
-    }
-    return static_cast<double>(num_open) <=
-           (1.0 - min_share) * static_cast<double>(face.voxels.size());
+    constexpr double max_share = 0.2;
+    return share_behind(face, 2.5 * plan_.cell_size(), max_furniture_depth,
+                        [&](const Vector2d& place) {
+                            return plan_.has_level_at(place) || plan_.is_barrier_at(place);
+                        }) <= max_share;
 }
 
 /// Whether behind most of the face floor or ceiling was seen.
 bool FaceFinder::has_level_behind(const WallFace& face) const {
     constexpr double farthest = 0.4;
-    std::size_t num_level = 0;
-    for (const std::uint32_t voxel : face.voxels) {
-        const Vector3d point = sample_.cloud.positions[voxel].cast<double>();
-        for (double depth = 2.0 * plan_.cell_size(); depth <= farthest;
-             depth += plan_.cell_size()) {
-            const Vector3d place = room_from_map_ * (point - depth * face.plane.normal);
-            if (!plan_.has_level_at(place.head<2>())) continue;
-            ++num_level;
-            break;
-        }
-    }
-    return 2 * num_level > face.voxels.size();
+    return share_behind(face, 2.0 * plan_.cell_size(), farthest,
+                        [&](const Vector2d& place) { return plan_.has_level_at(place); }) > 0.5;
 }
 
 /// Walls reach the ceiling and are more than a beam; where that cannot be seen, they are taller
 /// than furniture and the last thing that was seen.
 bool FaceFinder::is_wall(const WallFace& face) const {
     const PlanRoom& room = plan_.rooms[static_cast<std::size_t>(face.room)];
-    const auto ceiling = room.lowest_ceiling;
     const double height = face.top - face.bottom;
     if (height < settings_.min_wall_height) return false;
-    if (ceiling && face.top >= *ceiling - settings_.ceiling_reach) {
-        // Beams, ducts and soffits end above the floor, which goes on under them.
-        const bool reaches_floor = face.bottom <= room.floor_height + foot_reach;
-        return reaches_floor || !has_level_behind(face);
-    }
-    if (!ceiling && height >= settings_.min_free_wall_height) return true;
-    return face.area >= min_closing_area && face.top >= room.floor_height + min_closing_top &&
-           is_last(face);
+    // Beams, ducts and soffits end above the floor, which goes on under them.
+    if (face.reaches_ceiling) return face.reaches_floor || !has_level_behind(face);
+    if (!room.lowest_ceiling && height >= settings_.min_free_wall_height) return true;
+    return face.area >= min_closing_area &&
+           face.top >= room.floor_height + settings_.min_closing_top && is_last(face);
 }
 
 /// A leaf or a pane in the wall, or the front of what stands before it: parallel, within the wall's

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "roomscribe/interpretation/opening_components.hpp"
+#include "roomscribe/interpretation/openings/opening_components.hpp"
 
 #include <algorithm>
 #include <array>
@@ -28,10 +28,8 @@ class ComponentBuilder {
         const auto push = [&](Label label, const WallRectangle& rectangle, double depth) {
             Component component;
             component.label = label;
-            const bool is_passage = label == Label::unknown;
-            if (is_passage) component.kind = "opening";
-            component.id = fmt::format("{}-{}", is_passage ? "opening" : label_name(label),
-                                       ++counts_[static_cast<std::size_t>(label)]);
+            component.id =
+                fmt::format("{}-{}", label_name(label), ++counts_[static_cast<std::size_t>(label)]);
             component.instance = next_instance_++;
             component.parent = wall;
             const Vector3d on_plane = (face.plane.offset - depth) * face.plane.normal;
@@ -42,10 +40,11 @@ class ComponentBuilder {
                 corner(rectangle.start, rectangle.bottom), corner(rectangle.end, rectangle.bottom),
                 corner(rectangle.end, rectangle.top), corner(rectangle.start, rectangle.top)};
             component.confidence = opening.confidence;
-            component.verdict = opening.confidence >= 0.5 ? Verdict::accepted : Verdict::doubtful;
+            component.verdict = opening.alternative.empty() ? Verdict::accepted : Verdict::doubtful;
+            component.evidence.alternative = opening.alternative;
             component.evidence.coverage = opening.coverage;
             component.evidence.occluded = opening.hidden;
-            component.evidence.rule = rule_of(opening);
+            component.evidence.rule = opening.rule;
             opening.components.push_back(components.size());
             components.push_back(std::move(component));
         };
@@ -61,28 +60,10 @@ class ComponentBuilder {
                 push(Label::door_frame, hole.grown(width, 0.0, width), casing_width);
                 connect(opening, layout, components[opening.components[0]].id);
                 break;
-            case OpeningType::passage:
-                push(Label::unknown, hole, opening.depth);
-                connect(opening, layout, components[opening.components[0]].id);
-                break;
         }
     }
 
   private:
-    static std::string rule_of(const WallOpening& opening) {
-        switch (opening.type) {
-            case OpeningType::window:
-                return "hole in the wall that rays pass through, above the floor";
-            case OpeningType::passage:
-                return "hole in the wall that stands on the floor, without a leaf";
-            case OpeningType::door:
-                break;
-        }
-        if (!opening.is_open) return "leaf of a door's size in the wall, on the floor";
-        return opening.leaf_patches.empty() ? "hole of a door's size in the wall, on the floor"
-                                            : "hole of a door's size in the wall and its open leaf";
-    }
-
     void connect(const WallOpening& opening, const StoreyLayout& layout, const std::string& id) {
         const std::int32_t before = layout.faces[opening.face].room;
         if (before == no_room || opening.room_behind == no_room) return;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "roomscribe/interpretation/flat_doors.hpp"
+#include "roomscribe/interpretation/openings/flat_doors.hpp"
 
 #include <algorithm>
 #include <cmath>

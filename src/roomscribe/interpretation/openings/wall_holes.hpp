@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "roomscribe/interpretation/wall_relief.hpp"
+#include "roomscribe/interpretation/openings/wall_relief.hpp"
 
 namespace roomscribe {
 

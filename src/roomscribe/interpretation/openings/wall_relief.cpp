@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "roomscribe/interpretation/wall_relief.hpp"
+#include "roomscribe/interpretation/openings/wall_relief.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "roomscribe/interpretation/upright.hpp"
+#include "roomscribe/interpretation/upright/upright.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,7 @@
 
 #include "roomscribe/core/quantile.hpp"
 #include "roomscribe/core/units.hpp"
-#include "roomscribe/interpretation/axis_profile.hpp"
+#include "roomscribe/interpretation/upright/axis_profile.hpp"
 
 namespace roomscribe {
 namespace {

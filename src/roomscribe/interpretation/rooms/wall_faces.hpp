@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "roomscribe/interpretation/floor_plan.hpp"
-#include "roomscribe/interpretation/upright_surfaces.hpp"
+#include "roomscribe/interpretation/rooms/floor_plan.hpp"
+#include "roomscribe/interpretation/rooms/upright_surfaces.hpp"
 
 namespace roomscribe {
 
@@ -21,6 +21,8 @@ struct WallFace {
     double top = 0.0;
     double area = 0.0;  ///< m2, of what was seen
     double rms = 0.0;
+    bool reaches_floor = false;
+    bool reaches_ceiling = false;
     std::vector<std::uint32_t> voxels;  ///< of the surface sample
 
     double width() const { return end - start; }

@@ -1,21 +1,20 @@
 // SPDX-License-Identifier: MIT
-#include "roomscribe/interpretation/wall_openings.hpp"
+#include "roomscribe/interpretation/openings/wall_openings.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
-#include <string>
 #include <utility>
 
 #include <Eigen/Geometry>
-#include <fmt/format.h>
 
 #include "roomscribe/core/parallel.hpp"
 #include "roomscribe/core/quantile.hpp"
 #include "roomscribe/core/units.hpp"
-#include "roomscribe/interpretation/flat_doors.hpp"
-#include "roomscribe/interpretation/opening_components.hpp"
-#include "roomscribe/interpretation/wall_holes.hpp"
+#include "roomscribe/interpretation/openings/flat_doors.hpp"
+#include "roomscribe/interpretation/openings/opening_components.hpp"
+#include "roomscribe/interpretation/openings/wall_holes.hpp"
 
 namespace roomscribe {
 namespace {
@@ -52,7 +51,7 @@ void set_depths(WallOpening& opening, const HoleEvidence& evidence) {
 
 /// An upright patch: m along its own level direction and along up.
 struct LeafExtent {
-    Vector3d along;
+    Vector3d along = Vector3d::UnitX();
     double across = 0.0;  ///< m along its normal
     double start = 0.0;
     double end = 0.0;
@@ -72,7 +71,10 @@ class OpeningFinder {
           room_from_map_(room_from_map),
           up_(room_from_map.row(2).transpose()),
           // Two points to a cell and side, and no finer than frames are wide.
-          cell_size_(std::clamp(2.0 * point_spacing, 0.04, 0.12)) {}
+          cell_size_(std::clamp(2.0 * point_spacing, 0.04, 0.12)) {
+        for (const PlanarPatch& patch : patches_)
+            extents_.push_back(is_upright(patch) ? extent_of(patch) : LeafExtent{});
+    }
 
     std::vector<WallOpening> look_at(std::size_t storey, std::size_t face) const;
 
@@ -84,6 +86,10 @@ class OpeningFinder {
                              const WallRectangle& hole) const;
     bool is_indoors_behind(const StoreyLayout& layout, const WallFace& face,
                            const WallRectangle& hole) const;
+    /// Leaves hang plumb.
+    bool is_upright(const PlanarPatch& patch) const {
+        return std::abs(patch.plane.normal.dot(up_)) <= std::sin(radians(8.0));
+    }
     LeafExtent extent_of(const PlanarPatch& patch) const;
     void widen_to_hinge(const WallFace& face, WallRectangle& hole) const;
     std::vector<std::uint32_t> find_open_leaf(const WallFace& face,
@@ -101,6 +107,7 @@ class OpeningFinder {
     Eigen::Matrix3d room_from_map_;
     Vector3d up_;
     double cell_size_;
+    std::vector<LeafExtent> extents_;  ///< per patch; those of upright ones alone mean something
 };
 
 std::int32_t OpeningFinder::room_behind(const StoreyLayout& layout, const WallFace& face,
@@ -118,14 +125,15 @@ std::int32_t OpeningFinder::room_behind(const StoreyLayout& layout, const WallFa
 /// Whether floor or ceiling go on behind the hole.
 bool OpeningFinder::is_indoors_behind(const StoreyLayout& layout, const WallFace& face,
                                       const WallRectangle& hole) const {
-    for (double share : {0.25, 0.5, 0.75}) {
-        const Vector3d foot = place(face, hole.start + share * hole.width(), hole.bottom);
-        for (double depth = 0.2; depth <= 1.5; depth += 0.1) {
-            const Vector3d point = room_from_map_ * (foot - depth * face.plane.normal);
-            if (layout.plan.has_level_at(point.head<2>())) return true;
-        }
-    }
-    return false;
+    const Vector2d backwards = -(room_from_map_ * face.plane.normal).head<2>();
+    const auto is_indoors = [&](double share) {
+        const Vector3d foot =
+            room_from_map_ * place(face, hole.start + share * hole.width(), hole.bottom);
+        return layout.plan.any_along(
+            foot.head<2>(), backwards, 0.2, 1.5,
+            [&](const Vector2d& behind) { return layout.plan.has_level_at(behind); });
+    };
+    return is_indoors(0.25) || is_indoors(0.5) || is_indoors(0.75);
 }
 
 LeafExtent OpeningFinder::extent_of(const PlanarPatch& patch) const {
@@ -152,14 +160,14 @@ std::vector<std::uint32_t> OpeningFinder::find_open_leaf(const WallFace& face,
     std::vector<std::uint32_t> leaf;
     for (std::uint32_t number = 0; number < patches_.size(); ++number) {
         const PlanarPatch& patch = patches_[number];
-        if (std::abs(patch.plane.normal.dot(up_)) > std::sin(radians(8.0))) continue;
+        if (!is_upright(patch)) continue;
         const Vector3d middle = place(face, 0.5 * (hole.start + hole.end), patch.centroid.dot(up_));
         if ((patch.centroid - middle).norm() > hole.width() + 0.3) continue;
         if (std::abs(patch.plane.normal.dot(face.plane.normal)) > std::cos(radians(4.0)) &&
             std::abs(face.plane.signed_distance(patch.centroid)) < 0.15) {
             continue;
         }
-        const LeafExtent extent = extent_of(patch);
+        const LeafExtent& extent = extents_[number];
         const double width = extent.end - extent.start;
         if (extent.top > hole.top + 0.12 || extent.top < hole.top - 0.4) continue;
         if (width > hole.width() + 0.15 || extent.top - extent.bottom < 0.5) continue;
@@ -213,12 +221,14 @@ std::optional<WallOpening> OpeningFinder::judge(std::size_t storey, std::size_t 
         const bool is_glazed =
             evidence.lost >= min_lost || (relief.has_rays && evidence.through_share >= 0.3);
         if (is_closed && (is_indoors || !is_glazed)) {
+            opening.rule = "leaf of a door's size in the wall, on the floor";
             opening.depth = evidence.depth;
             opening.confidence = 0.9;
             return opening;
         }
         if (!is_indoors && is_glazed) {
             opening.type = OpeningType::window;
+            opening.rule = "glazed hole in the wall down to the floor, nothing indoors behind it";
             set_depths(opening, evidence);
             opening.frame_width = measure_frame(relief, cells).value_or(usual_window_frame);
             opening.confidence = 0.7;
@@ -227,9 +237,14 @@ std::optional<WallOpening> OpeningFinder::judge(std::size_t storey, std::size_t 
         opening.leaf_patches = find_open_leaf(face, hole);
         opening.is_open = true;
         opening.depth = 0.05;
-        opening.confidence = opening.leaf_patches.empty() ? 0.6 : 0.85;
-        // Without its leaf a wide hole is as often a passage as a double door.
-        if (opening.leaf_patches.empty() && hole.width() > max_leaf_width) opening.confidence = 0.5;
+        opening.rule = "hole of a door's size in the wall and its open leaf";
+        opening.confidence = 0.85;
+        if (opening.leaf_patches.empty()) {
+            opening.rule = "hole of a door's size in the wall, on the floor";
+            opening.alternative = "passage without a leaf";
+            // Double doors are rarer than single ones.
+            opening.confidence = hole.width() > max_leaf_width ? 0.5 : 0.6;
+        }
         return opening;
     }
     if (above_floor <= max_rail && hole.height() >= min_glazing_height &&
@@ -238,6 +253,7 @@ std::optional<WallOpening> OpeningFinder::judge(std::size_t storey, std::size_t 
         hole = hole.grown(usual_rail, 0.0, usual_rail);
         hole.bottom = rooms.floor_height;
         opening.frame_width = casing_width;
+        opening.rule = "pane of a door's height in the wall, indoors behind it";
         opening.depth = 0.02;
         opening.confidence = 0.7;
         return opening;
@@ -256,6 +272,8 @@ std::optional<WallOpening> OpeningFinder::judge(std::size_t storey, std::size_t 
     opening.type = OpeningType::window;
     set_depths(opening, evidence);
     opening.frame_width = measure_frame(relief, cells).value_or(usual_window_frame);
+    opening.rule = is_glazed ? "glazed hole in the wall, above the floor"
+                             : "hole in the wall like a window of the same storey";
     opening.confidence = is_glazed ? 0.85 : unglazed;
     return opening;
 }
@@ -263,10 +281,11 @@ std::optional<WallOpening> OpeningFinder::judge(std::size_t storey, std::size_t 
 /// A leaf that stands ajar hides a part of its hole: that reaches to the hinge then.
 void OpeningFinder::widen_to_hinge(const WallFace& face, WallRectangle& hole) const {
     if (hole.width() >= max_leaf_width || hole.height() < min_door_height - floor_reach) return;
-    for (const PlanarPatch& patch : patches_) {
-        if (std::abs(patch.plane.normal.dot(up_)) > std::sin(radians(8.0))) continue;
+    for (std::size_t number = 0; number < patches_.size(); ++number) {
+        const PlanarPatch& patch = patches_[number];
+        if (!is_upright(patch)) continue;
         if (std::abs(patch.plane.normal.dot(face.plane.normal)) > std::cos(radians(4.0))) continue;
-        const auto leaf = extent_of(patch);
+        const LeafExtent& leaf = extents_[number];
         const double width = leaf.end - leaf.start;
         if (width < min_door_width || width > max_leaf_width) continue;
         if (std::abs(leaf.top - hole.top) > 0.15 || leaf.top - leaf.bottom < 1.2) continue;
@@ -305,6 +324,7 @@ void OpeningFinder::add_flat_doors(std::size_t storey, std::size_t number, const
         opening.frame_width = casing_width;
         opening.depth = std::max(0.0, -door.height);
         opening.room_behind = room_behind(rooms, rooms.faces[number], opening.hole);
+        opening.rule = "leaf of a door's size nearly in the plane of the wall, on the floor";
         opening.coverage = 1.0;
         opening.confidence = 0.75;
         openings.push_back(std::move(opening));

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "roomscribe/core/context.hpp"
-#include "roomscribe/interpretation/room_surfaces.hpp"
+#include "roomscribe/interpretation/rooms/room_surfaces.hpp"
 #include "roomscribe/model/label.hpp"
 #include "roomscribe/structure/surface_sample.hpp"
 

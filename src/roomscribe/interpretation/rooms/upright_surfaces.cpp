@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "roomscribe/interpretation/upright_surfaces.hpp"
+#include "roomscribe/interpretation/rooms/upright_surfaces.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -18,6 +18,7 @@ constexpr double max_lean = radians(15.0);
 constexpr double max_turn = radians(5.0);
 /// Share of a patch's points that its extent leaves out at either end: strays.
 constexpr double stray_share = 0.005;
+
 struct Extent {
     double low = 0.0;
     double high = 0.0;
