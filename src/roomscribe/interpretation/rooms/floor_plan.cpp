@@ -62,6 +62,7 @@ struct PlanCell {
     float ceiling = std::numeric_limits<float>::quiet_NaN();
     bool has_floor = false;
     bool is_occupied = false;  ///< something was seen between floor and ceiling
+    bool is_blind = false;     ///< rays passed, but no scanner could look down on the floor there
     bool is_solid = false;     ///< of a barrier: there is surface at the height of people too
 };
 
@@ -94,6 +95,8 @@ class PlanDrawer {
     void mark_levels();
     void mark_occupied();
     void trace_rays(const ScanMap& map, const Context& context);
+    double blind_radius(const ScanMap& map, const MapSection& section) const;
+    void mark_blind(const ScanMap& map);
     void draw_barrier(const UprightSurface& surface);
     bool has_level_behind(const Vector2d& place, const Vector2d& normal) const;
     std::optional<double> ceiling_near(const Vector2d& place) const;
@@ -222,6 +225,40 @@ void PlanDrawer::trace_rays(const ScanMap& map, const Context& context) {
     }
 }
 
+/// m around a scanner, up to which it cannot look down on the floor that it stands on.
+double PlanDrawer::blind_radius(const ScanMap& map, const MapSection& section) const {
+    constexpr double farthest = 10.0;
+    constexpr double stray_share = 0.005;
+    constexpr std::size_t max_looks = 20'000;
+    const Vector3d origin = room_from_map_ * *section.sensor_position;
+    const std::size_t stride = section.count / max_looks + 1;
+    std::vector<double> slopes;
+    for (std::size_t i = section.first; i < section.first + section.count; i += stride) {
+        if (!map.cloud.positions[i].allFinite()) continue;
+        const Vector3d ray = in_room(map.cloud.positions[i]) - origin;
+        slopes.push_back(ray.z() / std::max(ray.head<2>().norm(), 1e-3));
+    }
+    if (slopes.empty()) return 0.0;
+    const double steepest = -quantile(slopes, stray_share);
+    const double height = origin.z() - floor_;
+    return steepest > 0.0 ? std::min(height / steepest, farthest) : farthest;
+}
+
+/// Scanners stand indoors, on a floor: what rays pass through around one is indoors, also where it
+/// cannot look down.
+void PlanDrawer::mark_blind(const ScanMap& map) {
+    constexpr std::uint32_t min_rays = 2;
+    for (const MapSection& section : map.sections) {
+        if (!section.sensor_position) continue;
+        const Vector2d origin = (room_from_map_ * *section.sensor_position).head<2>();
+        const double radius = blind_radius(map, section);
+        for (std::size_t cell = 0; cell < cells_.size(); ++cell) {
+            if (cells_[cell].num_rays >= min_rays && (plan_.middle_of(cell) - origin).norm() <= radius)
+                cells_[cell].is_blind = true;
+        }
+    }
+}
+
 /// Height of the highest ceiling close to a place.
 std::optional<double> PlanDrawer::ceiling_near(const Vector2d& place) const {
     const auto cell = plan_.cell_at(place);
@@ -326,7 +363,7 @@ std::vector<bool> PlanDrawer::find_inside() const {
     constexpr std::uint32_t min_rays = 2;
     std::vector<bool> inside(cells_.size(), false);
     for (std::size_t cell = 0; cell < cells_.size(); ++cell) {
-        if (plan_.has_level[cell]) {
+        if (plan_.has_level[cell] || cells_[cell].is_blind) {
             inside[cell] = true;
         } else if (cells_[cell].is_occupied || cells_[cell].num_rays >= min_rays) {
             bool is_near = false;
@@ -501,6 +538,7 @@ FloorPlan PlanDrawer::run(const ScanMap& map, std::span<const UprightSurface> su
     mark_levels();
     mark_occupied();
     trace_rays(map, context);
+    mark_blind(map);
     for (const UprightSurface& surface : surfaces)
         draw_barrier(surface);
     flood_rooms(find_inside());

@@ -2,6 +2,7 @@
 #include "roomscribe/interpretation/rooms/wall_faces.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <optional>
@@ -63,6 +64,9 @@ class FaceFinder {
     bool is_last(const WallFace& face) const;
     bool has_level_behind(const WallFace& face) const;
     bool is_wall(const WallFace& face) const;
+    bool is_closed_between(const WallFace& wall, double from, double to) const;
+    bool continues(const WallFace& wall, const WallFace& face) const;
+    void absorb(WallFace& wall, const WallFace& face) const;
     bool belongs_to(const WallFace& face, const WallFace& wall) const;
 
     const SurfaceSample& sample_;
@@ -210,12 +214,69 @@ bool FaceFinder::belongs_to(const WallFace& face, const WallFace& wall) const {
     return overlap >= 0.6 * face.width();
 }
 
+/// Whether the room ends at the wall's line between two places along it, as it does behind what
+/// stands before a wall.
+bool FaceFinder::is_closed_between(const WallFace& wall, double from, double to) const {
+    constexpr double min_share = 0.8;
+    int closed = 0;
+    int count = 0;
+    for (double along = from; along <= to; along += plan_.cell_size()) {
+        const Vector3d point = wall.plane.offset * wall.plane.normal + along * wall.along;
+        closed += is_closed_behind(point, wall.plane.normal, wall.room) ? 1 : 0;
+        ++count;
+    }
+    return closed >= min_share * count;
+}
+
+/// Whether the face is a piece of the wall that noise or furniture parted from it: both of its ends
+/// lie on the wall's plane by two errors, and the room does not go on between the two.
+bool FaceFinder::continues(const WallFace& wall, const WallFace& face) const {
+    if (face.room != wall.room) return false;
+    if (face.plane.normal.dot(wall.plane.normal) < std::cos(radians(15.0))) return false;
+    const double tolerance = 2.0 * std::max(sample_.tolerance, wall.rms + face.rms);
+    std::array<double, 2> ends{};
+    for (std::size_t side = 0; side < 2; ++side) {
+        const Vector3d end = face.plane.offset * face.plane.normal +
+                             (side == 0 ? face.start : face.end) * face.along;
+        if (std::abs(wall.plane.signed_distance(end)) > tolerance) return false;
+        ends[side] = end.dot(wall.along);
+    }
+    const double gap = std::max(ends[0] - wall.end, wall.start - ends[1]);
+    if (gap <= settings_.max_gap) return true;
+    return ends[0] > wall.end ? is_closed_between(wall, wall.end, ends[0])
+                              : is_closed_between(wall, ends[1], wall.start);
+}
+
+void FaceFinder::absorb(WallFace& wall, const WallFace& face) const {
+    const Vector3d foot = face.plane.offset * face.plane.normal;
+    wall.start = std::min(wall.start, (foot + face.start * face.along).dot(wall.along));
+    wall.end = std::max(wall.end, (foot + face.end * face.along).dot(wall.along));
+    wall.bottom = std::min(wall.bottom, face.bottom);
+    wall.top = std::max(wall.top, face.top);
+    wall.area += face.area;
+    wall.reaches_floor = wall.reaches_floor || face.reaches_floor;
+    wall.reaches_ceiling = wall.reaches_ceiling || face.reaches_ceiling;
+    wall.voxels.insert(wall.voxels.end(), face.voxels.begin(), face.voxels.end());
+}
+
 std::vector<WallFace> FaceFinder::take() {
-    std::stable_sort(faces_.begin(), faces_.end(),
-                     [](const WallFace& a, const WallFace& b) { return a.area > b.area; });
-    std::vector<WallFace> kept;
+    const auto by_area = [](const WallFace& a, const WallFace& b) { return a.area > b.area; };
+    std::stable_sort(faces_.begin(), faces_.end(), by_area);
+    std::vector<WallFace> walls;
     for (const WallFace& face : faces_) {
-        const bool has_wall = std::any_of(faces_.begin(), faces_.end(), [&](const WallFace& wall) {
+        const auto wall = std::find_if(walls.begin(), walls.end(), [&](const WallFace& known) {
+            return continues(known, face);
+        });
+        if (wall == walls.end()) {
+            walls.push_back(face);
+        } else {
+            absorb(*wall, face);
+        }
+    }
+    std::stable_sort(walls.begin(), walls.end(), by_area);
+    std::vector<WallFace> kept;
+    for (const WallFace& face : walls) {
+        const bool has_wall = std::any_of(walls.begin(), walls.end(), [&](const WallFace& wall) {
             return belongs_to(face, wall);
         });
         if (!has_wall) kept.push_back(face);
