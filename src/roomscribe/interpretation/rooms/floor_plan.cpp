@@ -36,8 +36,6 @@ constexpr double max_opening = 2.2;
 constexpr double min_room_area = 0.8;
 /// Of a place on a wall whose top was not seen.
 constexpr int min_slices = 3;
-/// Rays that are traced for free space.
-constexpr std::size_t max_rays = 400'000;
 
 std::uint64_t slices_between(double low, double high) {
     const int first = std::clamp(static_cast<int>(std::ceil(low / slice_height)), 0, num_slices);
@@ -68,17 +66,17 @@ struct PlanCell {
 
 class PlanDrawer {
   public:
-    PlanDrawer(const SurfaceSample& sample, std::span<const PlanarPatch> patches,
-               const Eigen::Matrix3d& room_from_map, const Storey& storey,
-               const RoomSurfacesSettings& settings)
-        : sample_(sample),
+    PlanDrawer(std::span<const Ray> rays, const SurfaceSample& sample,
+               std::span<const PlanarPatch> patches, const Eigen::Matrix3d& room_from_map,
+               const Storey& storey, const RoomSurfacesSettings& settings)
+        : rays_(rays),
+          sample_(sample),
           patches_(patches),
           room_from_map_(room_from_map),
           storey_(storey),
           settings_(settings) {}
 
-    FloorPlan run(const ScanMap& map, std::span<const UprightSurface> surfaces,
-                  const Context& context);
+    FloorPlan run(std::span<const UprightSurface> surfaces);
 
   private:
     Vector3d in_room(const Eigen::Vector3f& position) const {
@@ -94,9 +92,9 @@ class PlanDrawer {
     bool lay_out();
     void mark_levels();
     void mark_occupied();
-    void trace_rays(const ScanMap& map, const Context& context);
-    double blind_radius(const ScanMap& map, const MapSection& section) const;
-    void mark_blind(const ScanMap& map);
+    void trace_rays();
+    double blind_radius(std::span<const Ray> rays) const;
+    void mark_blind();
     void draw_barrier(const UprightSurface& surface);
     bool has_level_behind(const Vector2d& place, const Vector2d& normal) const;
     std::optional<double> ceiling_near(const Vector2d& place) const;
@@ -110,6 +108,7 @@ class PlanDrawer {
     template <typename Visit>
     void for_each_neighbor(std::size_t cell, int reach, Visit&& visit) const;
 
+    std::span<const Ray> rays_;
     const SurfaceSample& sample_;
     std::span<const PlanarPatch> patches_;
     Eigen::Matrix3d room_from_map_;
@@ -197,48 +196,38 @@ void PlanDrawer::mark_occupied() {
 }
 
 /// Counts in each cell the rays that pass between floor and ceiling.
-void PlanDrawer::trace_rays(const ScanMap& map, const Context& context) {
-    const std::size_t stride = map.cloud.size() / max_rays + 1;
+void PlanDrawer::trace_rays() {
     const double top = storey_.ceilings.empty() ? std::numeric_limits<double>::infinity()
                                                 : storey_.ceilings.back().height;
     const double step = 0.5 * plan_.cell_size();
-    for (const MapSection& section : map.sections) {
-        context.throw_if_cancelled();
-        if (!section.sensor_position) continue;
-        const Vector3d origin = room_from_map_ * *section.sensor_position;
-        for (std::size_t i = section.first; i < section.first + section.count; i += stride) {
-            if (!map.cloud.positions[i].allFinite()) continue;
-            const Vector3d ray = in_room(map.cloud.positions[i]) - origin;
-            const double length = ray.head<2>().norm();
-            // Short of the point by more than its error.
-            const double end = std::min(length - 3.0 * plan_.cell_size(), 2.0 * max_reach);
-            std::size_t last = plan_.num_cells();
-            for (double along = 0.0; along < end; along += step) {
-                const Vector3d point = origin + (along / length) * ray;
-                if (point.z() < floor_ || point.z() > top) break;
-                const auto cell = plan_.cell_at(point.head<2>());
-                if (!cell) break;
-                if (*cell != last) ++cells_[*cell].num_rays;
-                last = *cell;
-            }
+    for (const Ray& traced : rays_) {
+        const Vector3d origin = in_room(traced.origin);
+        const Vector3d ray = in_room(traced.end) - origin;
+        const double length = ray.head<2>().norm();
+        // Short of the point by more than its error.
+        const double end = std::min(length - 3.0 * plan_.cell_size(), 2.0 * max_reach);
+        std::size_t last = plan_.num_cells();
+        for (double along = 0.0; along < end; along += step) {
+            const Vector3d point = origin + (along / length) * ray;
+            if (point.z() < floor_ || point.z() > top) break;
+            const auto cell = plan_.cell_at(point.head<2>());
+            if (!cell) break;
+            if (*cell != last) ++cells_[*cell].num_rays;
+            last = *cell;
         }
     }
 }
 
-/// m around a scanner, up to which it cannot look down on the floor that it stands on.
-double PlanDrawer::blind_radius(const ScanMap& map, const MapSection& section) const {
+/// m around a scanner, up to which it cannot look down on the floor that it stands on. Its rays.
+double PlanDrawer::blind_radius(std::span<const Ray> rays) const {
     constexpr double farthest = 10.0;
     constexpr double stray_share = 0.005;
-    constexpr std::size_t max_looks = 20'000;
-    const Vector3d origin = room_from_map_ * *section.sensor_position;
-    const std::size_t stride = section.count / max_looks + 1;
+    const Vector3d origin = in_room(rays.front().origin);
     std::vector<double> slopes;
-    for (std::size_t i = section.first; i < section.first + section.count; i += stride) {
-        if (!map.cloud.positions[i].allFinite()) continue;
-        const Vector3d ray = in_room(map.cloud.positions[i]) - origin;
-        slopes.push_back(ray.z() / std::max(ray.head<2>().norm(), 1e-3));
+    for (const Ray& ray : rays) {
+        const Vector3d way = in_room(ray.end) - origin;
+        slopes.push_back(way.z() / std::max(way.head<2>().norm(), 1e-3));
     }
-    if (slopes.empty()) return 0.0;
     const double steepest = -quantile(slopes, stray_share);
     const double height = origin.z() - floor_;
     return steepest > 0.0 ? std::min(height / steepest, farthest) : farthest;
@@ -246,14 +235,18 @@ double PlanDrawer::blind_radius(const ScanMap& map, const MapSection& section) c
 
 /// Scanners stand indoors, on a floor: what rays pass through around one is indoors, also where it
 /// cannot look down.
-void PlanDrawer::mark_blind(const ScanMap& map) {
+void PlanDrawer::mark_blind() {
     constexpr std::uint32_t min_rays = 2;
-    for (const MapSection& section : map.sections) {
-        if (!section.sensor_position) continue;
-        const Vector2d origin = (room_from_map_ * *section.sensor_position).head<2>();
-        const double radius = blind_radius(map, section);
+    for (std::size_t first = 0; first < rays_.size();) {
+        std::size_t end = first + 1;
+        while (end < rays_.size() && rays_[end].origin == rays_[first].origin)
+            ++end;
+        const Vector2d origin = in_room(rays_[first].origin).head<2>();
+        const double radius = blind_radius(rays_.subspan(first, end - first));
+        first = end;
         for (std::size_t cell = 0; cell < cells_.size(); ++cell) {
-            if (cells_[cell].num_rays >= min_rays && (plan_.middle_of(cell) - origin).norm() <= radius)
+            if (cells_[cell].num_rays >= min_rays &&
+                (plan_.middle_of(cell) - origin).norm() <= radius)
                 cells_[cell].is_blind = true;
         }
     }
@@ -532,13 +525,12 @@ void PlanDrawer::describe_rooms() {
     }
 }
 
-FloorPlan PlanDrawer::run(const ScanMap& map, std::span<const UprightSurface> surfaces,
-                          const Context& context) {
+FloorPlan PlanDrawer::run(std::span<const UprightSurface> surfaces) {
     if (!lay_out()) return {};
     mark_levels();
     mark_occupied();
-    trace_rays(map, context);
-    mark_blind(map);
+    trace_rays();
+    mark_blind();
     for (const UprightSurface& surface : surfaces)
         draw_barrier(surface);
     flood_rooms(find_inside());
@@ -617,12 +609,12 @@ bool FloorPlan::has_level_at(const Vector2d& place) const {
     return cell && has_level[*cell];
 }
 
-FloorPlan draw_floor_plan(const ScanMap& map, const SurfaceSample& sample,
+FloorPlan draw_floor_plan(std::span<const Ray> rays, const SurfaceSample& sample,
                           std::span<const PlanarPatch> patches,
                           const Eigen::Matrix3d& room_from_map, const Storey& storey,
                           std::span<const UprightSurface> surfaces,
-                          const RoomSurfacesSettings& settings, const Context& context) {
-    return PlanDrawer(sample, patches, room_from_map, storey, settings).run(map, surfaces, context);
+                          const RoomSurfacesSettings& settings) {
+    return PlanDrawer(rays, sample, patches, room_from_map, storey, settings).run(surfaces);
 }
 
 std::vector<Vector2d> trace_room(const FloorPlan& plan, std::int32_t room) {

@@ -8,10 +8,9 @@
 
 #include <Eigen/Core>
 
-#include "roomscribe/core/context.hpp"
 #include "roomscribe/interpretation/rooms/level_surfaces.hpp"
+#include "roomscribe/interpretation/rooms/ray_sample.hpp"
 #include "roomscribe/interpretation/rooms/upright_surfaces.hpp"
-#include "roomscribe/model/scan.hpp"
 
 namespace roomscribe {
 
@@ -80,11 +79,11 @@ class FloorPlan {
 /// high up along a long line, as beams and steps of the ceiling do, parts no rooms.
 ///
 /// Of a storey without surface or wall there are no rooms.
-FloorPlan draw_floor_plan(const ScanMap& map, const SurfaceSample& sample,
+FloorPlan draw_floor_plan(std::span<const Ray> rays, const SurfaceSample& sample,
                           std::span<const PlanarPatch> patches,
                           const Eigen::Matrix3d& room_from_map, const Storey& storey,
                           std::span<const UprightSurface> surfaces,
-                          const RoomSurfacesSettings& settings, const Context& context = {});
+                          const RoomSurfacesSettings& settings);
 
 /// The outline of a room: the rim of its cells without steps, counter-clockwise, in the plan's
 /// coordinates. Empty for a room without cells.

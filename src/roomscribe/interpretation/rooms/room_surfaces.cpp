@@ -332,6 +332,8 @@ RoomSurfaces find_room_surfaces(const ScanMap& map, const SurfaceSample& sample,
         std::erase_if(storey.sloping_ceilings,
                       [&](std::uint32_t patch) { return !is_topmost(sample, patches[patch], up); });
     }
+    constexpr std::size_t max_rays = 400'000;
+    const std::vector<Ray> rays = sample_rays(map, max_rays);
     SurfaceBuilder builder(sample, patches, upright);
     constexpr double infinity = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < storeys.size(); ++i) {
@@ -340,9 +342,9 @@ RoomSurfaces find_room_surfaces(const ScanMap& map, const SurfaceSample& sample,
         const double to = i + 1 == storeys.size() ? infinity : storeys[i + 1].floor->height;
         const auto surfaces = find_upright_surfaces(sample, patches, up, from, to, settings);
         StoreyLayout layout;
-        layout.plan = draw_floor_plan(map, sample, patches, upright.room_from_map, storeys[i],
-                                      surfaces, settings, context);
-        layout.faces = find_wall_faces(sample, patches, surfaces, layout.plan,
+        layout.plan = draw_floor_plan(rays, sample, patches, upright.room_from_map, storeys[i],
+                                      surfaces, settings);
+        layout.faces = find_wall_faces(rays, sample, patches, surfaces, layout.plan,
                                        upright.room_from_map, settings);
         if (!layout.plan.rooms.empty()) layout.floor_height = layout.plan.rooms[0].floor_height;
         builder.add_storey(storeys[i], layout);

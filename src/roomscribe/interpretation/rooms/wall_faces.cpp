@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 #include <optional>
+#include <set>
 
 #include <Eigen/Geometry>
 
@@ -35,12 +36,16 @@ constexpr double max_inset = 0.3;
 constexpr double max_furniture_depth = 1.0;
 constexpr double min_clearance = 0.15;
 
+/// m, in which it is told where along a wall something was seen.
+constexpr double column_width = 0.1;
+
 class FaceFinder {
   public:
-    FaceFinder(const SurfaceSample& sample, std::span<const PlanarPatch> patches,
-               const FloorPlan& plan, const Eigen::Matrix3d& room_from_map,
-               const RoomSurfacesSettings& settings)
-        : sample_(sample),
+    FaceFinder(std::span<const Ray> rays, const SurfaceSample& sample,
+               std::span<const PlanarPatch> patches, const FloorPlan& plan,
+               const Eigen::Matrix3d& room_from_map, const RoomSurfacesSettings& settings)
+        : rays_(rays),
+          sample_(sample),
           patches_(patches),
           plan_(plan),
           room_from_map_(room_from_map),
@@ -63,12 +68,15 @@ class FaceFinder {
     double share_behind(const WallFace& face, double nearest, double farthest, Test&& test) const;
     bool is_last(const WallFace& face) const;
     bool has_level_behind(const WallFace& face) const;
+    bool is_passed_over(const WallFace& face) const;
     bool is_wall(const WallFace& face) const;
     bool is_closed_between(const WallFace& wall, double from, double to) const;
+    double shared_columns(const WallFace& wall, const WallFace& face) const;
     bool continues(const WallFace& wall, const WallFace& face) const;
     void absorb(WallFace& wall, const WallFace& face) const;
     bool belongs_to(const WallFace& face, const WallFace& wall) const;
 
+    std::span<const Ray> rays_;
     const SurfaceSample& sample_;
     std::span<const PlanarPatch> patches_;
     const FloorPlan& plan_;
@@ -133,10 +141,12 @@ void FaceFinder::split(std::int32_t room, const Plane& plane, double rms,
         face.rms = rms;
         std::vector<double> heights;
         std::vector<double> places;
+        std::vector<float> noises;
         for (std::size_t i = begin; i < end; ++i) {
             face.voxels.push_back(voxels[i].second);
             places.push_back(voxels[i].first);
             heights.push_back(sample_.cloud.positions[voxels[i].second].cast<double>().dot(up_));
+            noises.push_back(sample_.noise_of_voxel[voxels[i].second]);
         }
         begin = end;
         face.start = quantile(places, stray_share);
@@ -144,6 +154,7 @@ void FaceFinder::split(std::int32_t room, const Plane& plane, double rms,
         face.bottom = quantile(heights, stray_share);
         face.top = quantile(heights, 1.0 - stray_share);
         face.area = voxel_area * static_cast<double>(face.voxels.size());
+        face.noise = static_cast<double>(median(noises));
         const PlanRoom& seen = plan_.rooms[static_cast<std::size_t>(room)];
         face.reaches_floor = face.bottom <= seen.floor_height + foot_reach;
         face.reaches_ceiling =
@@ -183,12 +194,26 @@ bool FaceFinder::has_level_behind(const WallFace& face) const {
                         [&](const Vector2d& place) { return plan_.has_level_at(place); }) > 0.5;
 }
 
+/// Whether rays go on above the face, under the ceiling, as they do over furniture and over leaves
+/// that stand open.
+bool FaceFinder::is_passed_over(const WallFace& face) const {
+    constexpr double margin = 0.05;
+    constexpr double lintel = 0.3;  // m, of what is looked at where no ceiling tells
+    constexpr std::size_t min_rays = 8;
+    const PlanRoom& room = plan_.rooms[static_cast<std::size_t>(face.room)];
+    UprightWindow above{face.plane, face.along, up_, face.start, face.end, face.top + margin, 0.0};
+    above.top = room.lowest_ceiling ? *room.lowest_ceiling - margin : above.bottom + lintel;
+    if (above.top - above.bottom < margin) return false;
+    const RayCount count = count_rays(rays_, above, 2.0 * sample_.tolerance);
+    return count.passed >= min_rays && count.passed >= count.ended;
+}
+
 /// Walls reach the ceiling and are more than a beam; where that cannot be seen, they are taller
 /// than furniture and the last thing that was seen.
 bool FaceFinder::is_wall(const WallFace& face) const {
     const PlanRoom& room = plan_.rooms[static_cast<std::size_t>(face.room)];
     const double height = face.top - face.bottom;
-    if (height < settings_.min_wall_height) return false;
+    if (height < settings_.min_wall_height || is_passed_over(face)) return false;
     // Beams, ducts and soffits end above the floor, which goes on under them.
     if (face.reaches_ceiling) return face.reaches_floor || !has_level_behind(face);
     if (!room.lowest_ceiling && height >= settings_.min_free_wall_height) return true;
@@ -228,12 +253,37 @@ bool FaceFinder::is_closed_between(const WallFace& wall, double from, double to)
     return closed >= min_share * count;
 }
 
+/// Share of the columns in which the face was seen where the wall was seen as well.
+double FaceFinder::shared_columns(const WallFace& wall, const WallFace& face) const {
+    const auto columns = [&](const WallFace& of) {
+        std::set<int> seen;
+        for (const std::uint32_t voxel : of.voxels) {
+            const double along = sample_.cloud.positions[voxel].cast<double>().dot(wall.along);
+            seen.insert(static_cast<int>(std::floor(along / column_width)));
+        }
+        return seen;
+    };
+    const std::set<int> of_wall = columns(wall);
+    const std::set<int> of_face = columns(face);
+    const auto shared = std::count_if(of_face.begin(), of_face.end(),
+                                      [&](int column) { return of_wall.count(column) > 0; });
+    return static_cast<double>(shared) / static_cast<double>(of_face.size());
+}
+
 /// Whether the face is a piece of the wall that noise or furniture parted from it: both of its ends
-/// lie on the wall's plane by two errors, and the room does not go on between the two.
+/// lie on the wall's plane by two errors, and the room does not go on between the two; or it lies
+/// close before or behind the wall, both as high, as the layers do in which depth cameras see what
+/// is far.
 bool FaceFinder::continues(const WallFace& wall, const WallFace& face) const {
     if (face.room != wall.room) return false;
     if (face.plane.normal.dot(wall.plane.normal) < std::cos(radians(15.0))) return false;
-    const double tolerance = 2.0 * std::max(sample_.tolerance, wall.rms + face.rms);
+    const Vector3d middle =
+        face.plane.offset * face.plane.normal + 0.5 * (face.start + face.end) * face.along;
+    if (std::abs(wall.plane.signed_distance(middle)) <= max_inset &&
+        face.top > wall.top - min_clearance && shared_columns(wall, face) >= 0.5) {
+        return true;
+    }
+    const double tolerance = 2.0 * plane_tolerance(std::max(wall.noise, face.noise));
     std::array<double, 2> ends{};
     for (std::size_t side = 0; side < 2; ++side) {
         const Vector3d end = face.plane.offset * face.plane.normal +
@@ -302,12 +352,12 @@ std::optional<Vector2d> meeting_point(const PlanLine& a, const PlanLine& b) {
 
 }  // namespace
 
-std::vector<WallFace> find_wall_faces(const SurfaceSample& sample,
+std::vector<WallFace> find_wall_faces(std::span<const Ray> rays, const SurfaceSample& sample,
                                       std::span<const PlanarPatch> patches,
                                       std::span<const UprightSurface> surfaces,
                                       const FloorPlan& plan, const Eigen::Matrix3d& room_from_map,
                                       const RoomSurfacesSettings& settings) {
-    FaceFinder finder(sample, patches, plan, room_from_map, settings);
+    FaceFinder finder(rays, sample, patches, plan, room_from_map, settings);
     for (const UprightSurface& surface : surfaces)
         finder.add(surface);
     return finder.take();

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "roomscribe/interpretation/rooms/floor_plan.hpp"
+#include "roomscribe/interpretation/rooms/ray_sample.hpp"
 #include "roomscribe/interpretation/rooms/upright_surfaces.hpp"
 
 namespace roomscribe {
@@ -21,6 +22,7 @@ struct WallFace {
     double top = 0.0;
     double area = 0.0;  ///< m2, of what was seen
     double rms = 0.0;
+    double noise = 0.0;  ///< m, of most of its voxels (SurfaceSample::noise_of_voxel)
     bool reaches_floor = false;
     bool reaches_ceiling = false;
     std::vector<std::uint32_t> voxels;  ///< of the surface sample
@@ -30,8 +32,9 @@ struct WallFace {
 
 /// The upright surfaces that close the rooms: where one parts the room before it from something
 /// else. What stands within a room closes nothing. Leaves, panes and other things set in a wall are
-/// part of that wall's face and no faces of their own. The largest first.
-std::vector<WallFace> find_wall_faces(const SurfaceSample& sample,
+/// part of that wall's face and no faces of their own; so is what `rays` pass over, under the
+/// ceiling. The largest first.
+std::vector<WallFace> find_wall_faces(std::span<const Ray> rays, const SurfaceSample& sample,
                                       std::span<const PlanarPatch> patches,
                                       std::span<const UprightSurface> surfaces,
                                       const FloorPlan& plan, const Eigen::Matrix3d& room_from_map,
