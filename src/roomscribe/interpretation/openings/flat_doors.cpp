@@ -19,10 +19,10 @@ class FlatDoorSearch {
             for (int column = 0; column < relief.num_columns; ++column) {
                 const ReliefCell& cell = relief.at(column, row);
                 Sum sum;
-                if (cell.surface > 0 && cell.surface >= cell.open()) {
-                    const double mean = static_cast<double>(cell.height) / cell.surface;
+                if (cell.near > 0 && 2 * cell.near >= cell.surface + cell.open()) {
+                    const double mean = static_cast<double>(cell.height) / cell.near;
                     // Levers stand out, and what hangs on the wall.
-                    if (std::abs(mean) <= max_height) sum = {1.0, mean, mean * mean};
+                    if (mean <= max_height) sum = {1.0, mean, mean * mean};
                 }
                 at(column + 1, row + 1) =
                     sum + at(column, row + 1) + at(column + 1, row) - at(column, row);
@@ -61,7 +61,7 @@ class FlatDoorSearch {
     }
 
   private:
-    static constexpr double max_height = 0.05;
+    static constexpr double max_height = 0.05;  // m before the face
     static constexpr double min_leaf_width = 0.6;
     static constexpr double max_flat_width = 1.15;
     static constexpr double min_leaf_height = 1.88;

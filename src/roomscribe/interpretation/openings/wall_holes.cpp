@@ -56,6 +56,7 @@ WallRelief fill_gaps(const WallRelief& relief) {
                     target.surface += near.surface;
                     target.recess += near.recess;
                     target.through += near.through;
+                    target.near += near.near;
                     target.height += near.height;
                 }
             }

@@ -37,6 +37,9 @@ constexpr double unglazed = 0.1;
 constexpr double max_rail = 0.35;
 constexpr double min_glazing_height = 1.3;
 constexpr double usual_rail = 0.12;
+/// m. Outer walls are to 45 cm thick, with plaster and insulation to 60; inner ones 10 to 24.
+constexpr double max_thickness = 0.6;
+constexpr double usual_thickness = 0.12;
 /// m. uPVC frame and sash together show 100 to 120 mm, fixed lights 50 to 70 mm.
 constexpr double usual_window_frame = 0.08;
 
@@ -57,6 +60,12 @@ struct LeafExtent {
     double end = 0.0;
     double bottom = 0.0;
     double top = 0.0;
+};
+
+/// A leaf that stands open.
+struct OpenLeaf {
+    std::vector<std::uint32_t> patches;
+    double depth = 0.0;  ///< m behind the wall's face, of its hinges
 };
 
 class OpeningFinder {
@@ -92,8 +101,9 @@ class OpeningFinder {
     }
     LeafExtent extent_of(const PlanarPatch& patch) const;
     void widen_to_hinge(const WallFace& face, WallRectangle& hole) const;
-    std::vector<std::uint32_t> find_open_leaf(const WallFace& face,
-                                              const WallRectangle& hole) const;
+    OpenLeaf find_open_leaf(const WallFace& face, const WallRectangle& hole) const;
+    std::optional<double> thickness_at(const StoreyLayout& layout, const WallFace& face,
+                                       const WallRectangle& hole) const;
     void add_flat_doors(std::size_t storey, std::size_t face, const WallRelief& relief,
                         std::vector<WallOpening>& openings) const;
     Vector3d place(const WallFace& face, double along, double up) const {
@@ -112,9 +122,9 @@ class OpeningFinder {
 
 std::int32_t OpeningFinder::room_behind(const StoreyLayout& layout, const WallFace& face,
                                         const WallRectangle& hole) const {
-    constexpr double max_thickness = 0.8;
+    constexpr double farthest = 0.8;
     const Vector3d middle = place(face, 0.5 * (hole.start + hole.end), hole.bottom);
-    for (double depth = 0.1; depth <= max_thickness; depth += 0.05) {
+    for (double depth = 0.1; depth <= farthest; depth += 0.05) {
         const Vector3d point = room_from_map_ * (middle - depth * face.plane.normal);
         const std::int32_t room = layout.plan.room_at(point.head<2>());
         if (room != no_room && room != face.room) return room;
@@ -136,6 +146,22 @@ bool OpeningFinder::is_indoors_behind(const StoreyLayout& layout, const WallFace
     return is_indoors(0.25) || is_indoors(0.5) || is_indoors(0.75);
 }
 
+/// m, to the face of the same wall in the room behind, where that was seen.
+std::optional<double> OpeningFinder::thickness_at(const StoreyLayout& layout, const WallFace& face,
+                                                  const WallRectangle& hole) const {
+    std::optional<double> thickness;
+    const Vector3d middle = place(face, 0.5 * (hole.start + hole.end), hole.bottom);
+    for (const WallFace& other : layout.faces) {
+        if (other.plane.normal.dot(face.plane.normal) > -std::cos(radians(15.0))) continue;
+        const double depth = other.plane.signed_distance(middle);
+        const double along = other.along.dot(middle);
+        if (-depth < 0.03 || -depth > max_thickness) continue;
+        if (along < other.start - hole.width() || along > other.end + hole.width()) continue;
+        if (!thickness || -depth < *thickness) thickness = -depth;
+    }
+    return thickness;
+}
+
 LeafExtent OpeningFinder::extent_of(const PlanarPatch& patch) const {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     LeafExtent extent;
@@ -155,9 +181,10 @@ LeafExtent OpeningFinder::extent_of(const PlanarPatch& patch) const {
 
 /// The patches of a leaf that stands open: upright, as wide and high as the hole, with one upright
 /// edge at a side of it.
-std::vector<std::uint32_t> OpeningFinder::find_open_leaf(const WallFace& face,
-                                                         const WallRectangle& hole) const {
-    std::vector<std::uint32_t> leaf;
+OpenLeaf OpeningFinder::find_open_leaf(const WallFace& face, const WallRectangle& hole) const {
+    constexpr double max_hinge_gap = 0.25;
+    OpenLeaf leaf;
+    double nearest = max_hinge_gap;
     for (std::uint32_t number = 0; number < patches_.size(); ++number) {
         const PlanarPatch& patch = patches_[number];
         if (!is_upright(patch)) continue;
@@ -179,10 +206,14 @@ std::vector<std::uint32_t> OpeningFinder::find_open_leaf(const WallFace& face,
             for (const double side : {hole.start, hole.end}) {
                 const Vector3d jamb = place(face, side, 0.0);
                 const Vector3d offset = edge - jamb;
-                is_hinged = is_hinged || (offset - offset.dot(up_) * up_).norm() <= 0.25;
+                const double gap = (offset - offset.dot(up_) * up_).norm();
+                is_hinged = is_hinged || gap <= max_hinge_gap;
+                if (gap > nearest) continue;
+                nearest = gap;
+                leaf.depth = -face.plane.signed_distance(edge);
             }
         }
-        if (is_hinged) leaf.push_back(number);
+        if (is_hinged) leaf.patches.push_back(number);
     }
     return leaf;
 }
@@ -234,9 +265,12 @@ std::optional<WallOpening> OpeningFinder::judge(std::size_t storey, std::size_t 
             opening.confidence = 0.7;
             return opening;
         }
-        opening.leaf_patches = find_open_leaf(face, hole);
+        OpenLeaf leaf = find_open_leaf(face, hole);
+        const double thickness = thickness_at(rooms, face, hole).value_or(usual_thickness);
+        opening.leaf_patches = std::move(leaf.patches);
         opening.is_open = true;
-        opening.depth = 0.05;
+        opening.depth = opening.leaf_patches.empty() ? 0.5 * thickness
+                                                     : std::clamp(leaf.depth, 0.0, thickness);
         opening.rule = "hole of a door's size in the wall and its open leaf";
         opening.confidence = 0.85;
         if (opening.leaf_patches.empty()) {
@@ -369,7 +403,6 @@ void drop_niches(std::vector<WallOpening>& openings) {
 
 /// Whether two openings are the two sides of one.
 bool is_same(const WallOpening& a, const WallOpening& b, const RoomSurfaces& surfaces) {
-    constexpr double max_thickness = 0.6;
     if (a.storey != b.storey || a.face == b.face) return false;
     const WallFace& face = surfaces.storeys[a.storey].faces[a.face];
     const WallFace& other = surfaces.storeys[b.storey].faces[b.face];

@@ -42,7 +42,11 @@ void count(WallRelief& relief, float along, float above, std::uint32_t ReliefCel
     const auto cell = static_cast<std::size_t>(row) * static_cast<std::size_t>(relief.num_columns) +
                       static_cast<std::size_t>(column);
     ++(relief.cells[cell].*what);
-    if (what == &ReliefCell::surface) relief.cells[cell].height += height;
+    const bool is_met = what == &ReliefCell::surface || what == &ReliefCell::recess;
+    if (is_met && height >= -static_cast<float>(near_depth)) {
+        ++relief.cells[cell].near;
+        relief.cells[cell].height += height;
+    }
     if (what != &ReliefCell::recess) return;
     const auto bin = static_cast<std::size_t>(-height / static_cast<float>(depth_bin));
     std::uint16_t& depth =

@@ -32,7 +32,8 @@ struct ReliefCell {
     std::uint32_t through = 0;  ///< farther behind it: the ray went through the wall
     std::uint32_t hidden = 0;   ///< before it: what lies behind was not seen
 
-    float height = 0.0F;  ///< m, sum over `surface` of how far before the face they lie
+    std::uint32_t near = 0;  ///< close to the face, before or behind it (near_depth)
+    float height = 0.0F;     ///< m, sum over `near` of how far before the face they lie
 
     std::uint32_t open() const { return recess + through; }
 };
@@ -40,6 +41,8 @@ struct ReliefCell {
 /// m behind the face. Leaves, panes and blinds lie no deeper in their wall; what does was seen
 /// through it.
 inline constexpr double max_wall_depth = 0.45;
+/// m behind the face. Leaves lie to 12 cm deep (docs/interpretation.md); their noise.
+inline constexpr double near_depth = 0.15;
 inline constexpr int num_depth_bins = 36;
 inline constexpr double depth_bin = max_wall_depth / num_depth_bins;
 
