@@ -6,6 +6,8 @@
 #include <utility>
 
 #include "roomscribe/interpretation/openings/wall_openings.hpp"
+#include "roomscribe/preprocessing/saturated_returns.hpp"
+#include "roomscribe/preprocessing/scan_origin.hpp"
 #include "roomscribe/structure/planar_surfaces.hpp"
 #include "roomscribe/structure/plane_hough.hpp"
 #include "roomscribe/structure/plane_ransac.hpp"
@@ -61,6 +63,26 @@ void add_derived_values(std::vector<DerivedValue>& derived, const ScanStatistics
                            : "three times the noise and the evenness of finished walls"});
 }
 
+/// A scan that does not say where it was seen from mostly was from its origin: then its rays are
+/// evidence.
+void infer_scanner(Reconstruction& reconstruction) {
+    ScanMap& map = reconstruction.map;
+    if (map.sections.size() != 1 || map.sections[0].sensor_position ||
+        !map.cloud.global_shift.isZero()) {
+        return;
+    }
+    // Its ends of the range would be jumps everywhere.
+    const std::optional<Scan> cleaned = without_saturated_returns(Scan{"", map.cloud});
+    const OriginTest test = test_scan_origin(cleaned ? cleaned->cloud : map.cloud);
+    if (test.is_scanner) map.sections[0].sensor_position = Eigen::Vector3d::Zero();
+    reconstruction.derived_values.push_back(
+        {"structure.jumps_from_origin", test.share_of_jumps, "",
+         test.is_scanner ? "so few neighbours in direction differ in distance that the cloud was "
+                           "scanned from its origin"
+                         : "neighbours in direction that differ in distance: where the cloud was "
+                           "scanned from is not known"});
+}
+
 }  // namespace
 
 Reconstruction register_to_map(std::span<const Scan> scans, const PipelineSettings& settings,
@@ -83,7 +105,9 @@ Reconstruction register_to_map(std::span<const Scan> scans, const PipelineSettin
 void interpret_map(Reconstruction& reconstruction, const PipelineSettings& settings,
                    const Context& context) {
     check_settings(settings);
-    const ScanMap& map = reconstruction.map;
+    infer_scanner(reconstruction);
+    const std::optional<ScanMap> cleaned = without_saturated_returns(reconstruction.map);
+    const ScanMap& map = cleaned ? *cleaned : reconstruction.map;
     StageTimer timer(reconstruction.stage_costs);
     const auto finish = [&](const char* stage, double fraction) {
         timer.finish(stage);

@@ -65,4 +65,21 @@ std::optional<Scan> without_saturated_returns(const Scan& scan) {
     return rest;
 }
 
+std::optional<ScanMap> without_saturated_returns(const ScanMap& map) {
+    std::optional<ScanMap> cleaned;
+    for (const MapSection& section : map.sections) {
+        if (!section.sensor_position) continue;
+        Scan scan;
+        const auto first = map.cloud.positions.begin() + section.first;
+        scan.cloud.positions.assign(first, first + section.count);
+        scan.cloud.sensor_pose = Transform(Eigen::Translation3d(*section.sensor_position));
+        for (const std::uint32_t point : find_saturated_returns(scan)) {
+            if (!cleaned) cleaned = map;
+            cleaned->cloud.positions[section.first + point].setConstant(
+                std::numeric_limits<float>::quiet_NaN());
+        }
+    }
+    return cleaned;
+}
+
 }  // namespace roomscribe

@@ -17,4 +17,7 @@ std::vector<std::uint32_t> find_saturated_returns(const Scan& scan);
 /// A copy of the scan whose saturated returns are NaN, grid and order kept; nothing if it has none.
 std::optional<Scan> without_saturated_returns(const Scan& scan);
 
+/// The same for a map, scanner by scanner, where their places are known.
+std::optional<ScanMap> without_saturated_returns(const ScanMap& map);
+
 }  // namespace roomscribe
