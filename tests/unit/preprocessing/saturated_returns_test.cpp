@@ -74,5 +74,27 @@ TEST(SaturatedReturns, NothingOfNothing) {
     EXPECT_TRUE(find_saturated_returns({}).empty());
 }
 
+TEST(SaturatedReturns, AreTakenOutOfAMapScannerByScanner) {
+    const Eigen::Vector3d sensor(4.0, -7.0, 1.0);
+    const Scan lossy = scan_of_hall(0.03, 32.767, sensor);
+    const auto count = static_cast<std::uint32_t>(lossy.cloud.size());
+    ScanMap map;
+    map.cloud.positions = lossy.cloud.positions;
+    map.cloud.positions.insert(map.cloud.positions.end(), lossy.cloud.positions.begin(),
+                               lossy.cloud.positions.end());
+    map.sections = {{"known", 0, count, sensor}, {"unknown", count, count, std::nullopt}};
+    const auto rest = without_saturated_returns(map);
+    ASSERT_TRUE(rest.has_value());
+    ASSERT_EQ(rest->cloud.size(), 2U * count);
+    const std::vector<std::uint32_t> expected = find_saturated_returns(lossy);
+    std::size_t lost = 0;
+    for (std::size_t i = 0; i < rest->cloud.size(); ++i)
+        lost += rest->cloud.positions[i].allFinite() ? 0 : 1;
+    EXPECT_EQ(lost, expected.size());
+    EXPECT_FALSE(rest->cloud.positions[expected.front()].allFinite());
+    map.sections[0].sensor_position.reset();
+    EXPECT_FALSE(without_saturated_returns(map).has_value());
+}
+
 }  // namespace
 }  // namespace roomscribe

@@ -56,6 +56,7 @@ WallRelief fill_gaps(const WallRelief& relief) {
                     target.surface += near.surface;
                     target.recess += near.recess;
                     target.through += near.through;
+                    target.outdoors += near.outdoors;
                     target.near += near.near;
                     target.height += near.height;
                 }
@@ -93,13 +94,30 @@ class HoleFinder {
     }
     static bool is_wall(const ReliefCell& cell) { return cell.surface > cell.open(); }
 
+    /// Cells between the lines of a scanner, from line to line upwards, that it leaves unseen.
+    int gap_between_lines() const {
+        constexpr int least = 2;
+        const int most = std::max(least, static_cast<int>(0.5 / relief_.cell_size));
+        std::vector<int> gaps;
+        for (int column = 0; column < relief_.num_columns; ++column) {
+            int last = -1;
+            for (int row = 0; row < relief_.num_rows; ++row) {
+                const ReliefCell& cell = relief_.at(column, row);
+                if (cell.surface + cell.open() == 0) continue;
+                if (last >= 0) gaps.push_back(row - last);
+                last = row;
+            }
+        }
+        return gaps.empty() ? least : std::clamp(quantile(gaps, 0.9) + 1, least, most);
+    }
+
     /// Groups of open cells; cells that nothing was seen of do not part them.
     void find_groups() {
         group_.assign(relief_.cells.size(), -1);
         // What stands before a window hides a part of it, from top to bottom more often than
         // from side to side.
         const int reach_across = std::max(2, static_cast<int>(0.5 / relief_.cell_size));
-        constexpr int reach_up = 2;
+        const int reach_up = gap_between_lines();
         std::vector<std::size_t> stack;
         const auto width = static_cast<std::size_t>(relief_.num_columns);
         for (std::size_t seed = 0; seed < group_.size(); ++seed) {
@@ -282,6 +300,7 @@ HoleEvidence look_into(const WallRelief& relief, const CellRectangle& hole) {
     double through_cells = 0.0;
     double recess = 0.0;
     double through = 0.0;
+    double outdoors = 0.0;
     for (int row = hole.low; row < hole.high; ++row) {
         for (int column = hole.left; column < hole.right; ++column) {
             const ReliefCell& cell = relief.at(column, row);
@@ -292,6 +311,7 @@ HoleEvidence look_into(const WallRelief& relief, const CellRectangle& hole) {
                 const double weight = 1.0 / cell.open();
                 recess += weight * cell.recess;
                 through += weight * cell.through;
+                outdoors += weight * cell.outdoors;
                 through_cells += cell.through > cell.recess ? 1.0 : 0.0;
                 const std::uint16_t* counts =
                     relief.depths.data() + relief.index(column, row) * num_depth_bins;
@@ -305,6 +325,7 @@ HoleEvidence look_into(const WallRelief& relief, const CellRectangle& hole) {
     evidence.seen = open / cells;
     evidence.hidden = hidden / cells;
     evidence.opaque = recess / std::max(recess + through, 1e-9);
+    evidence.outdoors = outdoors / std::max(through, 1e-9);
     evidence.through_share = through_cells / std::max(open, 1.0);
     const auto deepest = std::max_element(depths.begin(), depths.end()) - depths.begin();
     evidence.depth = (static_cast<double>(deepest) + 0.5) * depth_bin;

@@ -36,6 +36,7 @@ struct HoleEvidence {
     double hidden = 0.0;         ///< share of the cells that only hidden rays were aimed at
     double opaque = 0.0;         ///< share of the open rays that ended in the hole
     double through_share = 0.0;  ///< share of the open cells that most rays went through
+    double outdoors = 0.0;       ///< share of these rays that ended below the floor or far away
     double depth = 0.0;          ///< m, at which most of these ended
     double at_depth = 0.0;       ///< share of them that did near it
     /// By side: share of the cells closely around it that are wall, if enough were seen.

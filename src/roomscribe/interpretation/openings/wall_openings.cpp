@@ -13,6 +13,7 @@
 #include "roomscribe/core/quantile.hpp"
 #include "roomscribe/core/units.hpp"
 #include "roomscribe/interpretation/openings/flat_doors.hpp"
+#include "roomscribe/interpretation/openings/mirror_test.hpp"
 #include "roomscribe/interpretation/openings/opening_components.hpp"
 #include "roomscribe/interpretation/openings/wall_holes.hpp"
 
@@ -29,6 +30,7 @@ constexpr double max_door_width = 2.3;
 constexpr double min_door_height = 1.8;
 constexpr double max_door_height = 2.5;
 constexpr double max_leaf_width = 1.3;
+constexpr std::size_t max_rays = 400'000;
 /// m. Thresholds, skirtings and what lies on the floor.
 constexpr double floor_reach = 0.25;
 /// Confidence of a hole like a window's without a sign of glass, until drop_niches().
@@ -80,7 +82,9 @@ class OpeningFinder {
           room_from_map_(room_from_map),
           up_(room_from_map.row(2).transpose()),
           // Two points to a cell and side, and no finer than frames are wide.
-          cell_size_(std::clamp(2.0 * point_spacing, 0.04, 0.12)) {
+          cell_size_(std::clamp(2.0 * point_spacing, 0.04, 0.12)),
+          rays_(sample_rays(map, max_rays)),
+          mirror_test_(rays_, sample) {
         for (const PlanarPatch& patch : patches_)
             extents_.push_back(is_upright(patch) ? extent_of(patch) : LeafExtent{});
     }
@@ -98,6 +102,11 @@ class OpeningFinder {
     /// Leaves hang plumb.
     bool is_upright(const PlanarPatch& patch) const {
         return std::abs(patch.plane.normal.dot(up_)) <= std::sin(radians(8.0));
+    }
+    bool is_mirror(const WallFace& face, const WallRectangle& hole) const {
+        const UprightWindow window{face.plane, face.along,  up_,     hole.start,
+                                   hole.end,   hole.bottom, hole.top};
+        return mirror_test_.share_of_images(window, max_wall_depth) >= 0.5;
     }
     LeafExtent extent_of(const PlanarPatch& patch) const;
     void widen_to_hinge(const WallFace& face, WallRectangle& hole) const;
@@ -117,6 +126,8 @@ class OpeningFinder {
     Eigen::Matrix3d room_from_map_;
     Vector3d up_;
     double cell_size_;
+    std::vector<Ray> rays_;
+    MirrorTest mirror_test_;
     std::vector<LeafExtent> extents_;  ///< per patch; those of upright ones alone mean something
 };
 
@@ -257,7 +268,8 @@ std::optional<WallOpening> OpeningFinder::judge(std::size_t storey, std::size_t 
             opening.confidence = 0.9;
             return opening;
         }
-        if (!is_indoors && is_glazed) {
+        const bool is_outdoors = evidence.outdoors >= 0.5 || evidence.through_share < min_through;
+        if (!is_indoors && is_glazed && is_outdoors) {
             opening.type = OpeningType::window;
             opening.rule = "glazed hole in the wall down to the floor, nothing indoors behind it";
             set_depths(opening, evidence);
@@ -269,8 +281,8 @@ std::optional<WallOpening> OpeningFinder::judge(std::size_t storey, std::size_t 
         const double thickness = thickness_at(rooms, face, hole).value_or(usual_thickness);
         opening.leaf_patches = std::move(leaf.patches);
         opening.is_open = true;
-        opening.depth = opening.leaf_patches.empty() ? 0.5 * thickness
-                                                     : std::clamp(leaf.depth, 0.0, thickness);
+        opening.depth =
+            opening.leaf_patches.empty() ? 0.5 * thickness : std::clamp(leaf.depth, 0.0, thickness);
         opening.rule = "hole of a door's size in the wall and its open leaf";
         opening.confidence = 0.85;
         if (opening.leaf_patches.empty()) {
@@ -302,7 +314,10 @@ std::optional<WallOpening> OpeningFinder::judge(std::size_t storey, std::size_t 
     // A mirror shows what lies behind it without a frame in the wall, and as often as not where
     // another room is.
     constexpr double min_framed = 0.25;
-    if (evidence.framed < min_framed || is_indoors_behind(rooms, face, hole)) return std::nullopt;
+    if (evidence.framed < min_framed || is_indoors_behind(rooms, face, hole) ||
+        is_mirror(face, hole)) {
+        return std::nullopt;
+    }
     opening.type = OpeningType::window;
     set_depths(opening, evidence);
     opening.frame_width = measure_frame(relief, cells).value_or(usual_window_frame);

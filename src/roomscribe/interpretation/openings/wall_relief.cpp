@@ -15,6 +15,10 @@ constexpr std::size_t max_points = 4'000'000;
 /// m before the face: casings and levers. What lies farther hides the wall.
 constexpr float max_relief = 0.1F;
 
+/// m. A step down at a door is less; the ground floor lies at least so much over the ground.
+constexpr float below_floor = 0.15F;
+constexpr float farthest_room = 10.0F;
+
 /// The face's coordinates of points, in float: m along the wall, up, and out of it.
 struct FaceFrame {
     Vector3f along;
@@ -77,6 +81,9 @@ void follow_rays(WallRelief& relief, const FaceFrame& frame, std::span<const Vec
             count(relief, point.x(), point.y(), &ReliefCell::surface, point.z());
         } else if (point.z() < -static_cast<float>(max_wall_depth)) {
             count(relief, along, above, &ReliefCell::through);
+            // Ground lies lower than floors; rooms are not so deep.
+            if (point.y() < -below_floor || point.z() < -farthest_room)
+                count(relief, along, above, &ReliefCell::outdoors);
         } else {
             count(relief, along, above, &ReliefCell::recess, point.z());
         }

@@ -27,10 +27,11 @@ struct WallRectangle {
 
 /// What was seen at a place of a wall's face: how many rays ended there or went on.
 struct ReliefCell {
-    std::uint32_t surface = 0;  ///< on the face
-    std::uint32_t recess = 0;   ///< in the hole behind the face, as leaves, frames and panes lie
-    std::uint32_t through = 0;  ///< farther behind it: the ray went through the wall
-    std::uint32_t hidden = 0;   ///< before it: what lies behind was not seen
+    std::uint32_t surface = 0;   ///< on the face
+    std::uint32_t recess = 0;    ///< in the hole behind the face, as leaves, frames and panes lie
+    std::uint32_t through = 0;   ///< farther behind it: the ray went through the wall
+    std::uint32_t outdoors = 0;  ///< of `through`: below the floor, or far away
+    std::uint32_t hidden = 0;    ///< before it: what lies behind was not seen
 
     std::uint32_t near = 0;  ///< close to the face, before or behind it (near_depth)
     float height = 0.0F;     ///< m, sum over `near` of how far before the face they lie

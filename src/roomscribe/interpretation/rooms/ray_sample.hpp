@@ -33,6 +33,27 @@ struct UprightWindow {
     double top = 0.0;
 };
 
+/// Calls `visit(ray, behind)` for each ray that meets the rectangle from the side its normal looks
+/// to; `behind`: m behind its plane, at which the ray ended (less than 0: before it).
+template <typename Visit>
+void visit_rays(std::span<const Ray> rays, const UprightWindow& window, Visit&& visit) {
+    const Eigen::Vector3f normal = window.plane.normal.cast<float>();
+    const auto offset = static_cast<float>(window.plane.offset);
+    const Eigen::Vector3f along = window.along.cast<float>();
+    const Eigen::Vector3f up = window.up.cast<float>();
+    for (const Ray& ray : rays) {
+        const float before = normal.dot(ray.origin) - offset;
+        const float behind = offset - normal.dot(ray.end);
+        if (before <= 0.0F || before + behind <= 0.0F) continue;
+        const Eigen::Vector3f place =
+            ray.origin + before / (before + behind) * (ray.end - ray.origin);
+        const auto x = static_cast<double>(along.dot(place));
+        const auto z = static_cast<double>(up.dot(place));
+        if (x < window.start || x > window.end || z < window.bottom || z > window.top) continue;
+        visit(ray, behind);
+    }
+}
+
 /// What became of the rays that met a rectangle from the side its normal looks to.
 struct RayCount {
     std::size_t ended = 0;   ///< within `tolerance` of it

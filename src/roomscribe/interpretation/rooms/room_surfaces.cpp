@@ -15,6 +15,7 @@
 #include "roomscribe/interpretation/rooms/floor_plan.hpp"
 #include "roomscribe/interpretation/rooms/level_surfaces.hpp"
 #include "roomscribe/interpretation/rooms/outline.hpp"
+#include "roomscribe/interpretation/rooms/room_outline.hpp"
 #include "roomscribe/interpretation/rooms/upright_surfaces.hpp"
 #include "roomscribe/interpretation/rooms/wall_faces.hpp"
 #include "roomscribe/interpretation/upright/axis_profile.hpp"
@@ -346,6 +347,7 @@ RoomSurfaces find_room_surfaces(const ScanMap& map, const SurfaceSample& sample,
                                       surfaces, settings);
         layout.faces = find_wall_faces(rays, sample, patches, surfaces, layout.plan,
                                        upright.room_from_map, settings);
+        fill_to_walls(layout.plan, layout.faces, upright.room_from_map);
         if (!layout.plan.rooms.empty()) layout.floor_height = layout.plan.rooms[0].floor_height;
         builder.add_storey(storeys[i], layout);
         result.storeys.push_back(std::move(layout));

@@ -5,14 +5,12 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <optional>
 #include <set>
 
 #include <Eigen/Geometry>
 
 #include "roomscribe/core/quantile.hpp"
 #include "roomscribe/core/units.hpp"
-#include "roomscribe/geometry/polygon.hpp"
 
 namespace roomscribe {
 namespace {
@@ -334,22 +332,6 @@ std::vector<WallFace> FaceFinder::take() {
     return kept;
 }
 
-/// A line of the plan.
-struct PlanLine {
-    Vector2d point;
-    Vector2d direction;
-
-    Vector2d foot(const Vector2d& place) const {
-        return point + direction.dot(place - point) * direction;
-    }
-};
-
-std::optional<Vector2d> meeting_point(const PlanLine& a, const PlanLine& b) {
-    const double sine = cross(a.direction, b.direction);
-    if (std::abs(sine) < std::sin(radians(20.0))) return std::nullopt;
-    return a.point + cross(b.point - a.point, b.direction) / sine * a.direction;
-}
-
 }  // namespace
 
 std::vector<WallFace> find_wall_faces(std::span<const Ray> rays, const SurfaceSample& sample,
@@ -361,81 +343,6 @@ std::vector<WallFace> find_wall_faces(std::span<const Ray> rays, const SurfaceSa
     for (const UprightSurface& surface : surfaces)
         finder.add(surface);
     return finder.take();
-}
-
-std::vector<Vector2d> outline_between_walls(std::span<const Vector2d> outline,
-                                            std::span<const WallFace> faces, std::int32_t room,
-                                            const Eigen::Matrix3d& room_from_map) {
-    constexpr double reach = 0.2;
-    const auto flat = [&](const Vector3d& vector) -> Vector2d {
-        return (room_from_map * vector).head<2>();
-    };
-    struct Edge {
-        PlanLine line;
-        const WallFace* face;
-        Vector2d start;
-        bool is_dent = false;
-    };
-    std::vector<Edge> edges;
-    for (std::size_t i = 0; i < outline.size(); ++i) {
-        const Vector2d& a = outline[i];
-        const Vector2d& b = outline[(i + 1) % outline.size()];
-        const Vector2d direction = (b - a).normalized();
-        Edge edge{{a, direction}, nullptr, a};
-        double nearest = reach;
-        for (const WallFace& face : faces) {
-            const Vector2d along = flat(face.along);
-            if (face.room != room || std::abs(along.dot(direction)) < std::cos(radians(15.0)))
-                continue;
-            const PlanLine line{flat(face.plane.offset * face.plane.normal), along};
-            const Vector2d middle = 0.5 * (a + b);
-            const double distance = (line.foot(middle) - middle).norm();
-            const double position = along.dot(middle);
-            if (distance > nearest || position < face.start - reach || position > face.end + reach)
-                continue;
-            nearest = distance;
-            edge.face = &face;
-            edge.line = {line.foot(a), along.dot(direction) < 0.0 ? Vector2d(-along) : along};
-        }
-        if (!edges.empty() && edge.face != nullptr && edges.back().face == edge.face) continue;
-        edges.push_back(edge);
-    }
-    while (edges.size() > 1 && edges.front().face != nullptr &&
-           edges.front().face == edges.back().face) {
-        edges.pop_back();
-    }
-    // What stands before a wall hides the strip behind it: between two edges on one wall it is
-    // the wall that counts.
-    constexpr std::size_t max_dent = 8;
-    for (std::size_t i = 0; i < edges.size(); ++i) {
-        if (edges[i].face == nullptr) continue;
-        for (std::size_t count = 1; count <= max_dent && count + 3 < edges.size(); ++count) {
-            const std::size_t next = (i + count) % edges.size();
-            if (edges[next].face == nullptr) continue;
-            if (edges[next].face != edges[i].face) break;
-            for (std::size_t k = 1; k <= count; ++k) {
-                Edge& dent = edges[(i + k) % edges.size()];
-                dent.face = edges[i].face;
-                dent.is_dent = true;
-            }
-            break;
-        }
-    }
-    std::erase_if(edges, [](const Edge& edge) { return edge.is_dent; });
-    std::vector<Vector2d> corners;
-    for (std::size_t i = 0; i < edges.size(); ++i) {
-        const Edge& before = edges[(i + edges.size() - 1) % edges.size()];
-        const Edge& after = edges[i];
-        const auto corner = meeting_point(before.line, after.line);
-        const bool is_near = corner && (*corner - after.start).norm() <= 5.0 * reach;
-        if (is_near) {
-            corners.push_back(*corner);
-        } else {
-            corners.push_back(before.line.foot(after.start));
-            corners.push_back(after.line.foot(after.start));
-        }
-    }
-    return corners;
 }
 
 }  // namespace roomscribe

@@ -40,10 +40,4 @@ std::vector<WallFace> find_wall_faces(std::span<const Ray> rays, const SurfaceSa
                                       const FloorPlan& plan, const Eigen::Matrix3d& room_from_map,
                                       const RoomSurfacesSettings& settings);
 
-/// The room's outline with its edges moved onto the wall faces that they run along.
-std::vector<Eigen::Vector2d> outline_between_walls(std::span<const Eigen::Vector2d> outline,
-                                                   std::span<const WallFace> faces,
-                                                   std::int32_t room,
-                                                   const Eigen::Matrix3d& room_from_map);
-
 }  // namespace roomscribe
