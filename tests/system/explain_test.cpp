@@ -267,10 +267,12 @@ TEST(ExplainScans, TellsOfWhatInterpretFound) {
         ++num_components;
         EXPECT_NE(facts.at("evidence").at("rule"), "") << facts;
         EXPECT_GT(facts.at("confidence"), 0.0) << facts;
-        if (facts.at("verdict") == "doubtful")
+        if (facts.at("verdict") == "doubtful") {
             EXPECT_TRUE(facts.at("evidence").contains("alternative")) << facts;
-        if (facts.at("evidence").at("points") > 0)
+        }
+        if (facts.at("evidence").at("points") > 0) {
             EXPECT_EQ(facts.at("evidence").at("scans"), 1) << facts;
+        }
     }
     EXPECT_GT(num_components, 3U);
     // The scan itself still has its values told.

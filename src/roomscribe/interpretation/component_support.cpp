@@ -4,9 +4,10 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <map>
+#include <iterator>
 #include <string_view>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "roomscribe/core/parallel.hpp"
@@ -21,17 +22,14 @@ struct Support {
     std::vector<std::size_t> scans;  ///< ascending
     PlaneMoments moments;            ///< of flat things alone
 };
-using SupportByInstance = std::map<std::int32_t, Support>;
-
-void add_scan(std::vector<std::size_t>& scans, std::size_t scan) {
-    const auto place = std::lower_bound(scans.begin(), scans.end(), scan);
-    if (place == scans.end() || *place != scan) scans.insert(place, scan);
-}
+using SupportByInstance = std::vector<Support>;
 
 void add(Support& sum, const Support& other) {
     sum.points += other.points;
-    for (const std::size_t scan : other.scans)
-        add_scan(sum.scans, scan);
+    std::vector<std::size_t> scans;
+    std::set_union(sum.scans.begin(), sum.scans.end(), other.scans.begin(), other.scans.end(),
+                   std::back_inserter(scans));
+    sum.scans = std::move(scans);
     sum.moments += other.moments;
 }
 
@@ -39,36 +37,41 @@ bool is_flat(Label label) {
     return label == Label::door || label == Label::furniture;
 }
 
-/// Support by instance of a run of points that one scan saw.
-SupportByInstance count_points(const ScanMap& map, const PointLabels& labels, std::size_t scan,
-                               std::size_t begin, std::size_t end) {
-    SupportByInstance counted;
-    for (std::size_t i = begin; i < end; ++i) {
-        if (labels.instances[i] < 0) continue;
-        Support& support = counted[labels.instances[i]];
-        ++support.points;
-        if (support.scans.empty()) support.scans.push_back(scan);
-        if (is_flat(labels.labels[i])) support.moments.add(map.cloud.positions[i].cast<double>());
-    }
-    return counted;
+/// Instances are numbered from 0 on.
+std::size_t instance_count(std::span<const Component> components) {
+    std::int32_t largest = -1;
+    for (const Component& component : components)
+        largest = std::max(largest, component.instance);
+    return static_cast<std::size_t>(largest + 1);
 }
 
 SupportByInstance count_points(const ScanMap& map, const PointLabels& labels,
-                               const Context& context) {
-    constexpr std::size_t chunk_size = 65536;
-    SupportByInstance sum;
+                               std::size_t num_instances, const Context& context) {
+    constexpr std::size_t chunk_size = 262144;
+    const auto combine = [](SupportByInstance a, const SupportByInstance& b) {
+        for (std::size_t i = 0; i < b.size(); ++i) {
+            if (b[i].points > 0) add(a[i], b[i]);
+        }
+        return a;
+    };
+    SupportByInstance sum(num_instances);
     for (std::size_t scan = 0; scan < map.sections.size(); ++scan) {
         const MapSection& section = map.sections[scan];
-        const auto map_chunk = [&](std::size_t begin, std::size_t end) {
-            return count_points(map, labels, scan, section.first + begin, section.first + end);
+        const auto count_chunk = [&](std::size_t begin, std::size_t end) {
+            SupportByInstance counted(num_instances);
+            for (std::size_t i = section.first + begin; i < section.first + end; ++i) {
+                const std::int32_t instance = labels.instances[i];
+                if (instance < 0 || static_cast<std::size_t>(instance) >= num_instances) continue;
+                Support& support = counted[static_cast<std::size_t>(instance)];
+                if (support.points++ == 0) support.scans.push_back(scan);
+                if (is_flat(labels.labels[i]))
+                    support.moments.add(map.cloud.positions[i].cast<double>());
+            }
+            return counted;
         };
-        const auto combine = [](SupportByInstance a, SupportByInstance b) {
-            for (const auto& [instance, support] : b)
-                add(a[instance], support);
-            return a;
-        };
-        sum = combine(std::move(sum), parallel_reduce(context, section.count, chunk_size,
-                                                      SupportByInstance{}, map_chunk, combine));
+        sum = combine(std::move(sum),
+                      parallel_reduce(context, section.count, chunk_size,
+                                      SupportByInstance(num_instances), count_chunk, combine));
     }
     return sum;
 }
@@ -91,17 +94,18 @@ std::vector<std::size_t> owners_of(
 
 void measure_support(const ScanMap& map, const PointLabels& labels, std::span<Component> components,
                      const Context& context) {
-    const SupportByInstance by_instance = count_points(map, labels, context);
+    const SupportByInstance by_instance =
+        count_points(map, labels, instance_count(components), context);
     std::unordered_map<std::string_view, std::size_t> furniture;
     for (std::size_t i = 0; i < components.size(); ++i) {
         if (components[i].label == Label::furniture) furniture.emplace(components[i].id, i);
     }
     std::vector<Support> supports(components.size());
     for (std::size_t i = 0; i < components.size(); ++i) {
-        const auto own = by_instance.find(components[i].instance);
-        if (own == by_instance.end()) continue;
+        if (components[i].instance < 0) continue;
+        const Support& own = by_instance[static_cast<std::size_t>(components[i].instance)];
         for (const std::size_t owner : owners_of(components, furniture, i))
-            add(supports[owner], own->second);
+            add(supports[owner], own);
     }
     for (std::size_t i = 0; i < components.size(); ++i) {
         Component& component = components[i];
