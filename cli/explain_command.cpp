@@ -2,10 +2,12 @@
 #include "cli/explain_command.hpp"
 
 #include <memory>
+#include <span>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "cli/explain_result.hpp"
 #include "cli/job.hpp"
 #include "cli/text_table.hpp"
 
@@ -34,6 +36,11 @@ std::string derived_json(const std::vector<DerivedValue>& values) {
 }
 
 ExitCode explain(const JobOptions& options, const std::atomic<bool>& cancel) {
+    if (is_result_folder(options.inputs.front())) {
+        const std::span<const std::string> ids(options.inputs.begin() + 1, options.inputs.end());
+        fmt::print("{}", explain_result(options.inputs.front(), ids, options.as_json));
+        return ExitCode::done;
+    }
     const PipelineSettings settings = resolve_settings(options);
     std::vector<DerivedValue> values;
     {
@@ -51,8 +58,14 @@ ExitCode explain(const JobOptions& options, const std::atomic<bool>& cancel) {
 void add_explain_command(CLI::App& program, Action& action) {
     const auto options = std::make_shared<JobOptions>();
     CLI::App& verb = *program.add_subcommand(
-        "explain", "Run without writing; print every value derived from the scans, and why");
-    add_scans(verb, *options);
+        "explain",
+        "Tell why: of a result, what was found; of scans, every value derived from them");
+    verb.add_option("OUT [ID...] | SCANS", options->inputs,
+                    "The folder of a result, and what to explain of it (door-2, room-1, 003.ply; "
+                    "all in a line each if nothing is named); or scans, to print the values that a "
+                    "run would derive from them")
+        ->type_name("")
+        ->required();
     add_job_options(verb, *options);
     verb.callback([options, &action] {
         action = [options](const std::atomic<bool>& cancel) { return explain(*options, cancel); };

@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <numeric>
 
 #include <fmt/format.h>
 
+#include "roomscribe/core/edit_distance.hpp"
 #include "roomscribe/core/error.hpp"
 
 namespace roomscribe::internal {
@@ -151,21 +151,6 @@ class Setter : public NamedVisitor {
     std::string_view text_;
     bool found_ = false;
 };
-
-/// Levenshtein distance, for the suggestion in "unknown setting".
-std::size_t edit_distance(std::string_view a, std::string_view b) {
-    std::vector<std::size_t> row(b.size() + 1);
-    std::iota(row.begin(), row.end(), std::size_t{0});
-    for (const char letter : a) {
-        std::size_t diagonal = row[0]++;
-        for (std::size_t j = 0; j < b.size(); ++j) {
-            const std::size_t substitution = diagonal + (letter == b[j] ? 0U : 1U);
-            diagonal = row[j + 1];
-            row[j + 1] = std::min({row[j + 1] + 1, row[j] + 1, substitution});
-        }
-    }
-    return row.back();
-}
 
 /// People leave out the groups: the last part of a name may stand for the whole.
 std::size_t name_distance(std::string_view known, std::string_view name) {

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "roomscribe/evaluation/component_fit.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include <Eigen/Geometry>
 
 #include "roomscribe/evaluation/polygon_overlap.hpp"
 #include "roomscribe/evaluation/protocol.hpp"
-#include "roomscribe/geometry/plane.hpp"
+#include "roomscribe/geometry/polygon.hpp"
 
 namespace roomscribe {
 namespace {
@@ -21,30 +22,30 @@ Eigen::Vector3d center_of(const Corners& corners) {
     return sum / static_cast<double>(corners.size());
 }
 
-/// Plane through the corners' centre, with the normal of Newell; empty if they enclose no area.
-std::optional<Plane> plane_of(const Corners& corners) {
-    if (corners.size() < 3) return std::nullopt;
+/// Along the normal, as long as twice the area (Newell).
+Eigen::Vector3d area_vector(const Corners& corners) {
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    if (corners.size() < 3) return sum;
     const Eigen::Vector3d center = center_of(corners);
-    Eigen::Vector3d normal = Eigen::Vector3d::Zero();
     for (std::size_t i = 0; i < corners.size(); ++i)
-        normal += (corners[i] - center).cross(corners[(i + 1) % corners.size()] - center);
-    if (!(normal.norm() > 1e-12)) return std::nullopt;
-    normal.normalize();
-    return Plane{normal, normal.dot(center)};
+        sum += (corners[i] - center).cross(corners[(i + 1) % corners.size()] - center);
+    return sum;
 }
 
 }  // namespace
 
-std::optional<double> rectangle_iou(const Corners& true_corners, const Corners& detected_corners) {
-    const std::optional<Plane> true_plane = plane_of(true_corners);
-    const std::optional<Plane> detected_plane = plane_of(detected_corners);
+std::optional<PolygonOverlap> overlap_of_polygons(const Corners& true_corners,
+                                                  const Corners& detected_corners,
+                                                  double max_distance) {
+    const std::optional<Plane> true_plane = plane_of_polygon(true_corners);
+    const std::optional<Plane> detected_plane = plane_of_polygon(detected_corners);
     if (!true_plane || !detected_plane) return std::nullopt;
     // Which way round the corners run says nothing.
     const double sine = true_plane->normal.cross(detected_plane->normal).norm();
     const double cosine = std::abs(true_plane->normal.dot(detected_plane->normal));
     const double distance = std::abs(true_plane->signed_distance(center_of(detected_corners)));
     if (std::atan2(sine, cosine) > protocol::max_normal_angle + protocol::rounding ||
-        distance > protocol::max_plane_distance + protocol::rounding) {
+        distance > max_distance + protocol::rounding) {
         return std::nullopt;
     }
     const PlaneAxes axes = plane_axes(true_plane->normal);
@@ -56,7 +57,28 @@ std::optional<double> rectangle_iou(const Corners& true_corners, const Corners& 
         }
         return flat;
     };
-    return polygon_iou(flattened(true_corners), flattened(detected_corners));
+    const std::vector<Eigen::Vector2d> of_truth = flattened(true_corners);
+    const std::vector<Eigen::Vector2d> detected = flattened(detected_corners);
+    return PolygonOverlap{overlap_area(of_truth, detected), std::abs(signed_area(of_truth)),
+                          std::abs(signed_area(detected))};
+}
+
+std::optional<Plane> plane_of_polygon(const Corners& corners) {
+    const Eigen::Vector3d normal = area_vector(corners);
+    if (!(normal.norm() > 1e-12)) return std::nullopt;
+    return Plane{normal.normalized(), normal.normalized().dot(center_of(corners))};
+}
+
+double polygon_area(const Corners& corners) {
+    return area_vector(corners).norm() / 2.0;
+}
+
+std::optional<double> rectangle_iou(const Corners& true_corners, const Corners& detected_corners) {
+    const std::optional<PolygonOverlap> overlap =
+        overlap_of_polygons(true_corners, detected_corners, protocol::max_plane_distance);
+    if (!overlap) return std::nullopt;
+    const double together = overlap->true_area + overlap->detected_area - overlap->shared;
+    return together > 0.0 ? std::clamp(overlap->shared / together, 0.0, 1.0) : 0.0;
 }
 
 bool lie_in_one_place(const Component& of_truth, const Component& detected) {

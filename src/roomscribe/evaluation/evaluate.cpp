@@ -46,6 +46,11 @@ Evaluation evaluate_result(const GroundTruth& truth, const Prediction& predictio
         evaluation.detections = evaluate_detections(truth, prediction, labels, context);
     context.throw_if_cancelled();
     if (prediction.labels) evaluation.points = compare_point_labels(truth, *prediction.labels);
+    constexpr LabelSet openings = label_bit(Label::door) | label_bit(Label::window);
+    if (prediction.scene && (labels & openings) == openings)
+        evaluation.decoys = evaluate_decoys(truth, prediction);
+    if (prediction.scene && !truth.scene.rooms.empty())
+        evaluation.rooms = evaluate_rooms(truth, prediction);
     if (prediction.scene) {
         const Transform true_from_predicted = predicted_from_true_map(truth, prediction).inverse();
         evaluation.axes = compare_axes(truth.scene.room_from_map * true_from_predicted,

@@ -20,6 +20,24 @@ void add_registration(EvaluationSummary& summary, const RegistrationError& regis
     }
 }
 
+void add_rooms(EvaluationSummary& summary, const RoomError& rooms) {
+    summary.rooms += rooms.rooms;
+    summary.neighbors += rooms.neighbors;
+    for (const RoomMatch& match : rooms.matches) {
+        if (match.outcome != DetectionOutcome::correct) continue;
+        summary.area_errors.push_back(std::abs(match.area_error));
+        summary.height_errors.push_back(std::abs(match.height_error));
+        summary.volume_errors.push_back(std::abs(match.volume_error));
+    }
+}
+
+void add_decoys(EvaluationSummary& summary, const DecoyError& decoys) {
+    for (std::size_t kind = 0; kind < decoys.per_kind.size(); ++kind)
+        summary.decoys[kind] += decoys.per_kind[kind];
+    for (const DetectedOpening& opening : decoys.openings)
+        ++summary.opening_grounds[static_cast<std::size_t>(opening.ground)];
+}
+
 }  // namespace
 
 EvaluationSummary summarize(std::span<const Evaluation> evaluations) {
@@ -31,6 +49,8 @@ EvaluationSummary summarize(std::span<const Evaluation> evaluations) {
                 summary.detections[id] += evaluation.detections->per_label[id];
             summary.calibration += calibrate(evaluation.detections->matches);
         }
+        if (evaluation.decoys) add_decoys(summary, *evaluation.decoys);
+        if (evaluation.rooms) add_rooms(summary, *evaluation.rooms);
         if (evaluation.points) summary.points += *evaluation.points;
         if (evaluation.axes) {
             summary.up_errors.push_back(evaluation.axes->up);
@@ -38,8 +58,9 @@ EvaluationSummary summarize(std::span<const Evaluation> evaluations) {
         }
         if (evaluation.registration) add_registration(summary, *evaluation.registration);
     }
-    for (std::vector<double>* errors : {&summary.up_errors, &summary.horizontal_errors,
-                                        &summary.translation_errors, &summary.rotation_errors}) {
+    for (std::vector<double>* errors :
+         {&summary.area_errors, &summary.height_errors, &summary.volume_errors, &summary.up_errors,
+          &summary.horizontal_errors, &summary.translation_errors, &summary.rotation_errors}) {
         std::sort(errors->begin(), errors->end());
     }
     return summary;

@@ -22,6 +22,14 @@ struct EvaluationSummary {
     std::size_t scenes = 0;
     std::array<DetectionCounts, num_labels> detections{};
     Calibration calibration;
+    std::array<DecoyCounts, decoy_kind_names.size()> decoys{};
+    OpeningGrounds opening_grounds{};
+    DetectionCounts rooms;
+    DetectionCounts neighbors;
+    // Of the rooms that were matched and count: how far off, without sign.
+    std::vector<double> area_errors;    ///< shares of what is true
+    std::vector<double> height_errors;  ///< m
+    std::vector<double> volume_errors;  ///< shares
     PointAgreement points;
     std::vector<double> up_errors;           ///< rad, one per scene with a result
     std::vector<double> horizontal_errors;   ///< rad

@@ -19,6 +19,16 @@ inline constexpr double max_normal_angle = radians(10.0);
 inline constexpr double max_plane_distance = 0.15;   // m
 inline constexpr double max_handle_distance = 0.05;  // m
 
+/// What hangs on a wall or goes into it lies this near to an opening that it is taken for: the
+/// depth of a niche in a wall of one brick.
+inline constexpr double max_decoy_distance = 0.3;  // m
+/// A cell of a wall was seen if a point on it was: within this of its plane (a board hangs there),
+/// in cells that the coarsest scans fill.
+inline constexpr double max_wall_distance = 0.1;  // m
+inline constexpr double wall_cell_size = 0.2;     // m
+/// A rectangle lies where most of it lies.
+inline constexpr double min_share = 0.5;
+
 /// How near a pose has to be to count as recalled.
 struct PoseTolerance {
     double translation = 0.0;  ///< m

@@ -109,6 +109,25 @@ Json json_of(const DetectionMatch& match) {
     return json;
 }
 
+Json json_of(const DetectedOpening& opening) {
+    Json json{{"predicted", opening.predicted_id},
+              {"ground", opening_ground_names[static_cast<std::size_t>(opening.ground)]}};
+    if (!opening.true_id.empty()) json["true"] = opening.true_id;
+    return json;
+}
+
+Json json_of(const RoomMatch& match) {
+    Json json{{"outcome", detection_outcome_name(match.outcome)}};
+    if (!match.true_id.empty()) json["true"] = match.true_id;
+    if (!match.predicted_id.empty()) json["predicted"] = match.predicted_id;
+    if (match.true_id.empty() || match.predicted_id.empty()) return json;
+    json["iou"] = match.iou;
+    json["area_error"] = match.area_error;
+    json["height_error"] = match.height_error;
+    json["volume_error"] = match.volume_error;
+    return json;
+}
+
 Json json_of(const ScanError& scan) {
     Json json{{"scan", scan.scan}, {"placed", scan.error.has_value()}};
     if (scan.error) {
@@ -198,6 +217,8 @@ std::string summary_to_json(const EvaluationSummary& summary) {
 std::string evaluation_to_json(const Evaluation& evaluation) {
     Json json = json_of(summarize({&evaluation, 1}));
     if (evaluation.detections) json["matches"] = list_of(evaluation.detections->matches);
+    if (evaluation.decoys) json["opening_grounds"] = list_of(evaluation.decoys->openings);
+    if (evaluation.rooms) json["room_matches"] = list_of(evaluation.rooms->matches);
     if (evaluation.registration) {
         json["scan_errors"] = list_of(evaluation.registration->scans);
         json["link_outcomes"] = list_of(evaluation.registration->links);

@@ -52,6 +52,20 @@ void add_counts(ScoreGroup& group, const DetectionCounts& counts) {
     group.count("scenes", counts.scenes);
 }
 
+void add_errors(ScoreGroup& group, std::string item, const std::vector<double>& sorted,
+                ScoreUnit unit) {
+    const auto value_at = [&](double share) -> std::optional<double> {
+        const std::optional<double> value = percentile(sorted, share);
+        if (!value || unit != ScoreUnit::degree) return value;
+        return degrees(*value);
+    };
+    group.start_row(std::move(item));
+    group.count("count", sorted.size());
+    group.add("median", unit, value_at(0.5));
+    group.add("p90", unit, value_at(0.9));
+    group.add("max", unit, value_at(1.0));
+}
+
 ScoreGroup detection_scores(const EvaluationSummary& summary) {
     ScoreGroup group("detection");
     DetectionCounts all;
@@ -84,18 +98,54 @@ ScoreGroup point_scores(const EvaluationSummary& summary) {
     return group;
 }
 
-void add_errors(ScoreGroup& group, std::string item, const std::vector<double>& sorted,
-                ScoreUnit unit) {
-    const auto value_at = [&](double share) -> std::optional<double> {
-        const std::optional<double> value = percentile(sorted, share);
-        if (!value || unit != ScoreUnit::degree) return value;
-        return degrees(*value);
+ScoreGroup decoy_scores(const EvaluationSummary& summary) {
+    ScoreGroup group("decoys");
+    DecoyCounts all;
+    const auto add_row = [&](std::string_view item, const DecoyCounts& counts) {
+        group.start_row(std::string(item));
+        group.count("there", counts.there);
+        group.count("taken", counts.taken);
+        group.share("share", counts.share());
     };
-    group.start_row(std::move(item));
-    group.count("count", sorted.size());
-    group.add("median", unit, value_at(0.5));
-    group.add("p90", unit, value_at(0.9));
-    group.add("max", unit, value_at(1.0));
+    for (std::size_t kind = 0; kind < summary.decoys.size(); ++kind) {
+        add_row(decoy_kind_names[kind], summary.decoys[kind]);
+        all += summary.decoys[kind];
+    }
+    add_row("all", all);
+    return group;
+}
+
+ScoreGroup opening_scores(const EvaluationSummary& summary) {
+    ScoreGroup group("openings");
+    std::uint64_t all = 0;
+    for (const std::uint64_t detections : summary.opening_grounds)
+        all += detections;
+    for (std::size_t ground = 0; ground < summary.opening_grounds.size(); ++ground) {
+        const std::uint64_t detections = summary.opening_grounds[ground];
+        group.start_row(std::string(opening_ground_names[ground]));
+        group.count("detections", detections);
+        group.share("share", all == 0 ? std::nullopt
+                                      : std::optional(static_cast<double>(detections) /
+                                                      static_cast<double>(all)));
+    }
+    return group;
+}
+
+ScoreGroup room_scores(const EvaluationSummary& summary) {
+    ScoreGroup group("rooms");
+    group.start_row("room");
+    add_counts(group, summary.rooms);
+    group.start_row("neighbours");
+    add_counts(group, summary.neighbors);
+    return group;
+}
+
+ScoreGroup room_size_scores(const EvaluationSummary& summary) {
+    ScoreGroup group("room_sizes");
+    add_errors(group, "area", summary.area_errors, ScoreUnit::share);
+    add_errors(group, "height", summary.height_errors, ScoreUnit::metre);
+    add_errors(group, "volume", summary.volume_errors, ScoreUnit::share);
+    return group;
 }
 
 ScoreGroup axes_scores(const EvaluationSummary& summary) {
@@ -169,6 +219,10 @@ ScoreGroup confidence_scores(const EvaluationSummary& summary) {
 std::vector<Score> list_scores(const EvaluationSummary& summary) {
     std::vector<Score> scores;
     detection_scores(summary).append_to(scores);
+    decoy_scores(summary).append_to(scores);
+    opening_scores(summary).append_to(scores);
+    room_scores(summary).append_to(scores);
+    room_size_scores(summary).append_to(scores);
     point_scores(summary).append_to(scores);
     axes_scores(summary).append_to(scores);
     registration_scores(summary).append_to(scores);

@@ -23,8 +23,9 @@ struct Score {
     std::optional<double> value;  ///< empty where it is not defined
 };
 
-/// In the order in which they are printed: detection, points, axes, registration, recall, links,
-/// confidence. A group about which the results said nothing is left out.
+/// In the order in which they are printed: detection, decoys, openings, rooms, room_sizes, points,
+/// axes, registration, recall, links, confidence. A group about which the results said nothing is
+/// left out.
 std::vector<Score> list_scores(const EvaluationSummary& summary);
 
 }  // namespace roomscribe

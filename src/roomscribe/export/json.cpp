@@ -89,6 +89,7 @@ Json evidence_of(const Evidence& evidence) {
     Json json = Json::object();
     put_text(json, "rule", evidence.rule);
     json["points"] = evidence.points;
+    if (evidence.scans > 0) json["scans"] = evidence.scans;
     put_number(json, "coverage", evidence.coverage);
     put_number(json, "occluded", evidence.occluded);
     put_number(json, "rms", evidence.rms);

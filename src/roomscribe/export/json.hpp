@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include <Eigen/Core>
 
 #include "roomscribe/model/registration_result.hpp"
 #include "roomscribe/model/scene.hpp"
@@ -28,11 +32,26 @@ Scene scene_from_json(std::string_view text, const std::string& path = "scene.js
 std::string registration_to_json(const Registration& registration,
                                  std::span<const std::string> scan_names);
 
-/// The links that registration_to_json wrote; unknown keys are ignored, and the stop reasons are
-/// left empty. Throws IoError, which names `path`, as scene_from_json does, also for a link of a
-/// scan that is not listed.
-std::vector<RegistrationLink> links_from_json(std::string_view text,
-                                              const std::string& path = "registration.json");
+/// What registration.json says of one scan.
+struct ScanRecord {
+    std::string name;
+    bool is_placed = false;
+    bool is_doubtful = false;
+    std::optional<double> residual;  ///< m
+    std::optional<double> overlap;   ///< the largest share of it that another scan has as well
+    std::optional<Eigen::Matrix<double, 6, 6>> covariance;  ///< of its pose in the map
+};
+
+struct RegistrationRecord {
+    std::vector<ScanRecord> scans;
+    std::vector<std::vector<std::size_t>> components;  ///< as Registration has them
+    std::vector<RegistrationLink> links;               ///< without the stop reasons
+};
+
+/// Reads what registration_to_json wrote; unknown keys are ignored. Throws IoError, which names
+/// `path`, as scene_from_json does, also for a link or component of a scan that is not listed.
+RegistrationRecord registration_from_json(std::string_view text,
+                                          const std::string& path = "registration.json");
 
 /// Any JSON text, laid out to be read: an array without objects or nested arrays stays on one line,
 /// all else is indented by two blanks. Keys keep their order. Throws InvalidArgument if the text is

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <utility>
@@ -75,6 +76,10 @@ class Node {
         }
         return json_->get<Integer>();
     }
+    bool truth() const {
+        if (!json_->is_boolean()) fail("must be true or false");
+        return json_->get<bool>();
+    }
     std::string text() const {
         if (!json_->is_string()) fail("must be a text");
         return json_->get<std::string>();
@@ -91,6 +96,9 @@ void read(const Node& node, double& value) {
 }
 void read(const Node& node, std::optional<double>& value) {
     value = node.number();
+}
+void read(const Node& node, bool& value) {
+    value = node.truth();
 }
 void read(const Node& node, std::string& value) {
     value = node.text();
@@ -168,6 +176,7 @@ void read(const Node& node, Grasp& grasp) {
 void read(const Node& node, Evidence& evidence) {
     read_if_present(node, "rule", evidence.rule);
     read_if_present(node, "points", evidence.points);
+    read_if_present(node, "scans", evidence.scans);
     read_if_present(node, "coverage", evidence.coverage);
     read_if_present(node, "occluded", evidence.occluded);
     read_if_present(node, "rms", evidence.rms);
@@ -233,12 +242,33 @@ void read(const Node& node, Eigen::Matrix<double, 6, 1>& twist) {
         twist[i] = numbers[static_cast<std::size_t>(i)].number();
 }
 
+void read(const Node& node, LoopCheck& check) {
+    for (const LoopCheck known :
+         {LoopCheck::none, LoopCheck::agrees, LoopCheck::disagrees, LoopCheck::resolved}) {
+        if (loop_check_name(known) != node.text()) continue;
+        check = known;
+        return;
+    }
+    node.fail("\"" + node.text() + "\" is not an outcome of a loop check");
+}
+
+void read(const Node& node, ScanRecord& scan) {
+    read_if_present(node, "name", scan.name);
+    read_if_present(node, "placed", scan.is_placed);
+    read_if_present(node, "doubtful", scan.is_doubtful);
+    read_if_present(node, "residual", scan.residual);
+    read_if_present(node, "overlap", scan.overlap);
+    if (const std::optional<Node> covariance = node.find("covariance"))
+        read(*covariance, scan.covariance.emplace());
+}
+
 void read(const Node& node, RegistrationLink& link) {
     read(node.at("source"), link.source);
     read(node.at("target"), link.target);
     read(node.at("verdict"), link.verdict);
     read(node.at("target_from_source"), link.target_from_source);
     read_if_present(node, "probability", link.probability);
+    read_if_present(node, "loops", link.loops);
     read_if_present(node, "overlap", link.overlap);
     read_if_present(node, "agreement", link.agreement);
     read_if_present(node, "rmse", link.rmse);
@@ -280,22 +310,31 @@ Scene scene_from_json(std::string_view text, const std::string& path) {
     return scene;
 }
 
-std::vector<RegistrationLink> links_from_json(std::string_view text, const std::string& path) {
+RegistrationRecord registration_from_json(std::string_view text, const std::string& path) {
     const DocumentName name{path, "registration JSON"};
     const Json json = parse(text, name);
     const Node document(json, name);
     require_format(document, "roomscribe-registration");
 
-    const std::size_t num_scans = document.at("scans").elements().size();
-    std::vector<RegistrationLink> links;
-    for (const Node& node : document.at("links").elements()) {
-        RegistrationLink& link = links.emplace_back();
-        read(node, link);
-        if (link.source >= num_scans || link.target >= num_scans) {
-            node.fail(fmt::format("names a scan that is not among the {}", num_scans));
+    RegistrationRecord record;
+    read(document.at("scans"), record.scans);
+    const auto require_scan = [&](const Node& node, std::size_t scan) {
+        if (scan < record.scans.size()) return;
+        node.fail(fmt::format("names a scan that is not among the {}", record.scans.size()));
+    };
+    if (const std::optional<Node> components = document.find("components")) {
+        for (const Node& node : components->elements()) {
+            read(node, record.components.emplace_back());
+            for (const std::size_t scan : record.components.back())
+                require_scan(node, scan);
         }
     }
-    return links;
+    for (const Node& node : document.at("links").elements()) {
+        RegistrationLink& link = record.links.emplace_back();
+        read(node, link);
+        require_scan(node, std::max(link.source, link.target));
+    }
+    return record;
 }
 
 }  // namespace roomscribe

@@ -26,6 +26,7 @@ struct Evidence {
     std::optional<double> occluded;  ///< share that something hides from every scanner, in [0, 1]
     std::optional<double> rms;       ///< m, distance of the points to the component's plane
     std::string alternative;         ///< the rival reading; not empty when doubtful
+    std::uint64_t scans = 0;         ///< that the points come from, 0 if not counted
 };
 
 /// A box turned in any way: `axes` are unit vectors, `size` the full extents along them.

@@ -5,6 +5,7 @@
 #include <iterator>
 #include <utility>
 
+#include "roomscribe/interpretation/component_support.hpp"
 #include "roomscribe/interpretation/openings/wall_openings.hpp"
 #include "roomscribe/preprocessing/saturated_returns.hpp"
 #include "roomscribe/preprocessing/scan_origin.hpp"
@@ -143,6 +144,7 @@ void interpret_map(Reconstruction& reconstruction, const PipelineSettings& setti
     }
     std::move(openings.components.begin(), openings.components.end(),
               std::back_inserter(reconstruction.scene.components));
+    measure_support(map, reconstruction.labels, reconstruction.scene.components, context);
     add_derived_values(reconstruction.derived_values, statistics, sample, settings.structure);
 }
 

@@ -118,7 +118,7 @@ std::vector<std::optional<Transform>> read_result_poses(const fs::path& path,
 
 std::vector<RegistrationLink> read_links(const fs::path& path, const GroundTruth& truth) {
     const MappedFile file(path, "registration JSON");
-    std::vector<RegistrationLink> links = links_from_json(file.text(), path.string());
+    std::vector<RegistrationLink> links = registration_from_json(file.text(), path.string()).links;
     for (const RegistrationLink& link : links) {
         const std::size_t last = std::max(link.source, link.target);
         if (last < truth.map_from_scan.size()) continue;

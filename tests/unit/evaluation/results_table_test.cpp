@@ -105,6 +105,47 @@ TEST(ResultsTable, RegistrationHasItsOwnTables) {
               "rejected       0     0      0      3\n");
 }
 
+TEST(ResultsTable, RoomsAndDecoysHaveTheirOwnTables) {
+    EvaluationSummary summary;
+    summary.scenes = 2;
+    summary.decoys[static_cast<std::size_t>(DecoyKind::picture)] = {40, 1};
+    summary.decoys[static_cast<std::size_t>(DecoyKind::niche)] = {10, 1};
+    summary.opening_grounds[static_cast<std::size_t>(OpeningGround::opening)] = 99;
+    summary.opening_grounds[static_cast<std::size_t>(OpeningGround::hidden_wall)] = 1;
+    summary.rooms = {4, 3, 1, 2};
+    summary.area_errors = {0.0, 0.01, 0.25};
+    summary.height_errors = {0.001, 0.002, 0.5};
+    const std::string text = summary_to_text(summary);
+    EXPECT_EQ(text,
+              "decoys   there  taken   share\n"
+              "picture     40      1   2.5 %\n"
+              "board        0      0       -\n"
+              "mirror       0      0       -\n"
+              "screen       0      0       -\n"
+              "niche       10      1  10.0 %\n"
+              "all         50      2   4.0 %\n"
+              "\n"
+              "openings     detections   share\n"
+              "opening              99  99.0 %\n"
+              "decoy                 0   0.0 %\n"
+              "hidden_wall           1   1.0 %\n"
+              "seen_wall             0   0.0 %\n"
+              "elsewhere             0   0.0 %\n"
+              "\n"
+              "rooms       ground truth  correct  accuracy  false positives  precision      f1  "
+              "scenes\n"
+              "room                   4        3    75.0 %                1     75.0 %  75.0 %  "
+              "     2\n"
+              "neighbours             0        0         -                0          -       -  "
+              "     0\n"
+              "\n"
+              "room_sizes  count   median      p90      max\n"
+              "area            3    1.0 %   25.0 %   25.0 %\n"
+              "height          3  0.002 m  0.500 m  0.500 m\n"
+              "volume          0        -        -        -\n");
+    EXPECT_THAT(summary_to_json(summary), HasSubstr("\"room_sizes\": {\n    \"area\""));
+}
+
 TEST(ResultsTable, OfNothingIsEmpty) {
     EXPECT_EQ(summary_to_text({}), "");
     EXPECT_EQ(summary_to_markdown({}), "");

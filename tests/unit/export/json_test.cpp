@@ -297,7 +297,7 @@ TEST(RegistrationToJson, ListsScansAndLinks) {
     EXPECT_THROW(registration_to_json(registration, {}), InvalidArgument);
 }
 
-TEST(LinksFromJson, GivesBackWhatWasWritten) {
+TEST(RegistrationFromJson, GivesBackWhatWasWritten) {
     Registration registration;
     registration.map_from_scan = {Transform::Identity(), std::nullopt};
     RegistrationLink link;
@@ -314,7 +314,27 @@ TEST(LinksFromJson, GivesBackWhatWasWritten) {
     link.rivals = {Transform::Identity()};
     registration.links = {link, RegistrationLink{}};
     const std::vector<std::string> names{"a.pcd", "b.pcd"};
-    const auto links = links_from_json(registration_to_json(registration, names));
+    registration.links[1].loops = LoopCheck::disagrees;
+    registration.components = {{0}, {1}};
+    registration.residuals = {0.0125, std::nan("")};
+    registration.overlaps = {0.25, 0.0};
+    registration.is_doubtful = {true, false};
+    registration.covariances.resize(2);
+    registration.covariances[0] = Eigen::Matrix<double, 6, 6>::Identity() * 0.5;
+    const RegistrationRecord record =
+        registration_from_json(registration_to_json(registration, names));
+    ASSERT_EQ(record.scans.size(), 2U);
+    EXPECT_EQ(record.scans[0].name, "a.pcd");
+    EXPECT_TRUE(record.scans[0].is_placed);
+    EXPECT_TRUE(record.scans[0].is_doubtful);
+    EXPECT_EQ(record.scans[0].residual, 0.0125);
+    EXPECT_EQ(record.scans[0].overlap, 0.25);
+    EXPECT_EQ(record.scans[0].covariance, registration.covariances[0]);
+    EXPECT_FALSE(record.scans[1].is_placed);
+    EXPECT_FALSE(record.scans[1].residual);
+    EXPECT_FALSE(record.scans[1].covariance);
+    EXPECT_EQ(record.components, registration.components);
+    const std::vector<RegistrationLink>& links = record.links;
     ASSERT_EQ(links.size(), 2U);
     EXPECT_EQ(links[0].source, 1U);
     EXPECT_EQ(links[0].target, 0U);
@@ -329,13 +349,15 @@ TEST(LinksFromJson, GivesBackWhatWasWritten) {
     EXPECT_EQ(links[0].unobservable, link.unobservable);
     EXPECT_EQ(links[0].rivals.size(), 1U);
     EXPECT_TRUE(links[1].rivals.empty());
+    EXPECT_EQ(links[0].loops, LoopCheck::none);
+    EXPECT_EQ(links[1].loops, LoopCheck::disagrees);
     EXPECT_EQ(links[1].verdict, LinkVerdict::rejected);
 }
 
-TEST(LinksFromJson, SaysWhatIsWrongAndWhere) {
+TEST(RegistrationFromJson, SaysWhatIsWrongAndWhere) {
     const auto complaint_of = [](const std::string& links) -> std::string {
         try {
-            links_from_json(
+            registration_from_json(
                 R"({"format": "roomscribe-registration", "version": 1, "scans": [{}], "links": [)" +
                 links + "]}");
         } catch (const IoError& error) {
@@ -350,7 +372,7 @@ TEST(LinksFromJson, SaysWhatIsWrongAndWhere) {
                 HasSubstr("links[0].verdict: \"good\" is not a verdict"));
     EXPECT_THAT(complaint_of(R"({"source": 0, "target": 0, "verdict": "accepted"})"),
                 HasSubstr("\"target_from_source\" is missing"));
-    EXPECT_THROW(links_from_json(scene_to_json({})), IoError);
+    EXPECT_THROW(registration_from_json(scene_to_json({})), IoError);
 }
 
 TEST(LayOutJson, KeepsKeyOrderAndPutsFlatArraysOnOneLine) {
