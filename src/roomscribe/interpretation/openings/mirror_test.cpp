@@ -9,8 +9,9 @@ namespace {
 
 using Eigen::Vector3f;
 
-/// m. Mirrors hang a centimetre or two before the plane that is taken for theirs, and bend.
-constexpr float cell_size = 0.1F;
+/// m. Mirrors hang a centimetre or two before the plane that is taken for theirs, and bend; ground
+/// outdoors lies farther below the floor.
+constexpr float cell_size = 0.06F;
 constexpr std::size_t min_rays = 20;
 
 }  // namespace
