@@ -256,8 +256,10 @@ std::optional<WallOpening> OpeningFinder::judge(std::size_t storey, std::size_t 
                               hole.top - rooms.floor_height >= min_door_height &&
                               hole.top - rooms.floor_height <= max_door_height;
     if (above_floor <= floor_reach && is_door_size) {
-        const bool is_indoors =
-            opening.room_behind != no_room || is_indoors_behind(rooms, face, hole);
+        const bool shows_outdoors =
+            evidence.outdoors >= 0.5 && evidence.through_share >= min_through;
+        const bool is_indoors = opening.room_behind != no_room ||
+                                (!shows_outdoors && is_indoors_behind(rooms, face, hole));
         hole.bottom = rooms.floor_height;
         opening.frame_width = casing_width;
         const bool is_glazed =
@@ -268,8 +270,8 @@ std::optional<WallOpening> OpeningFinder::judge(std::size_t storey, std::size_t 
             opening.confidence = 0.9;
             return opening;
         }
-        const bool is_outdoors = evidence.outdoors >= 0.5 || evidence.through_share < min_through;
-        if (!is_indoors && is_glazed && is_outdoors) {
+        // A door to a room that was not seen otherwise shows it.
+        if (!is_indoors && is_glazed && (shows_outdoors || evidence.through_share < min_through)) {
             opening.type = OpeningType::window;
             opening.rule = "glazed hole in the wall down to the floor, nothing indoors behind it";
             set_depths(opening, evidence);
