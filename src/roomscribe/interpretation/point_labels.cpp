@@ -188,8 +188,8 @@ class OpeningTest {
             // Before the frame lies the reveal, which is the wall's.
             if (depth < 0.5F * frame_depth) return std::nullopt;
             // Mullions and sashes lie in the plane of the frame, panes behind it.
-            const bool is_pane =
-                is_in(leaf_, along, above) && depth > 0.5F * (frame_depth + leaf_depth);
+            const bool is_pane = is_in(leaf_.grown(-rebate, -rebate, -rebate), along, above) &&
+                                 depth > 0.5F * (frame_depth + leaf_depth);
             return opening_.components[is_pane ? 0 : 1];
         }
         if (is_in(leaf_, along, above)) {
@@ -204,6 +204,7 @@ class OpeningTest {
 
   private:
     static constexpr float max_casing = 0.04F;    // m out of the wall
+    static constexpr double rebate = 0.02;  // m, of the frame's inner sides, seen aslant
     static constexpr double lining_width = 0.08;  // m, of what rays see of it aslant
     static constexpr float leaf_reach = 0.06F;    // m: half of the leaf, its panels and noise
 

@@ -136,12 +136,18 @@ double scanner_height(const AxisProfile& profile, std::span<const double> scanne
     return score / static_cast<double>(scanners.size());
 }
 
-/// Less than a storey's height above the floor there is no ceiling but a table or a shelf.
-AxisProfile without_table_as_ceiling(const AxisProfile& profile) {
+/// Two levels less than a storey's height apart are no floor and ceiling: the smaller one is a table
+/// or a shelf.
+AxisProfile without_table_as_level(const AxisProfile& profile) {
     AxisProfile result = profile;
-    if (profile.low && profile.high && *profile.high - *profile.low < min_storey_height) {
+    if (!profile.low || !profile.high || *profile.high - *profile.low >= min_storey_height)
+        return result;
+    if (profile.high_area <= profile.low_area) {
         result.high.reset();
         result.high_area = 0.0;
+    } else {
+        result.low.reset();
+        result.low_area = 0.0;
     }
     return result;
 }
@@ -299,7 +305,7 @@ Upright find_upright(const SurfaceSample& sample, std::span<const PlanarPatch> p
         for (const double sign : {1.0, -1.0}) {
             const Eigen::Vector3d up = sign * axes.axes.col(axis);
             const double supported = supported_share(clutter, profile, sample, patches, up);
-            result.candidates.push_back(judge(up, without_table_as_ceiling(profile), worst_slanted,
+            result.candidates.push_back(judge(up, without_table_as_level(profile), worst_slanted,
                                               supported, sample.sensor_positions));
             reverse(profile);
         }
