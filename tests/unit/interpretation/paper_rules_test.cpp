@@ -59,9 +59,9 @@ struct RoomOptions {
     double sill = 1.8;
 };
 
-/// 5 x 4 x 3 m, floor at z = 0. In the wall y = 0 a door of 0.8 x 2 m, 8 cm deep in a hole that is
-/// 5 cm wider; in the wall x = 5 a window of 1.2 x 0.6 m whose pane returns nothing; a picture of
-/// that size 5 cm before the wall y = 4.
+/// 5 x 4 x 3 m, floor at z = 0. In the wall y = 0 a door of 0.8 x 1.92 m over a threshold, 8 cm
+/// deep in a hole that is 5 cm wider; in the wall x = 5 a window of 1.2 x 0.6 m whose pane returns
+/// nothing; a picture of that size 5 cm before the wall y = 4.
 Room make_room(const RoomOptions& options = {}) {
     Room room;
     const Vector3d x = 5.0 * Vector3d::UnitX();
@@ -70,12 +70,12 @@ Room make_room(const RoomOptions& options = {}) {
     room.add_face(Vector3d::Zero(), x, y);
     if (options.has_ceiling) room.add_face(z, x, y);
     room.add_face(Vector3d::Zero(), x, z,
-                  options.has_door ? Holes{{1.0, 1.9, -1.0, 2.05}} : Holes{});
+                  options.has_door ? Holes{{1.0, 1.9, 0.06, 2.05}} : Holes{});
     room.add_face(y, x, z, options.has_picture ? Holes{{1.0, 2.2, 1.8, 2.4}} : Holes{});
     room.add_face(Vector3d::Zero(), y, z);
     room.add_face(x, y, z, Holes{{1.4, 2.6, options.sill, options.sill + 0.6}});
     if (options.has_door) {
-        room.add_face({1.05, -0.08, 0.0}, 0.8 * Vector3d::UnitX(), 2.0 * Vector3d::UnitZ());
+        room.add_face({1.05, -0.08, 0.08}, 0.8 * Vector3d::UnitX(), 1.92 * Vector3d::UnitZ());
     }
     if (options.has_picture) {
         room.add_face({1.0, 3.95, 1.8}, 1.2 * Vector3d::UnitX(), 0.6 * Vector3d::UnitZ());
@@ -134,9 +134,9 @@ TEST(FindPlaneQuadrilaterals, AreWallsDoorHoleLeafAndWindow) {
         });
     };
     EXPECT_TRUE(has(2, 5.0, 3.0));
-    EXPECT_TRUE(has(2, 0.9, 2.05));
+    EXPECT_TRUE(has(2, 0.9, 1.99));
     EXPECT_TRUE(has(5, 1.2, 0.6));
-    EXPECT_TRUE(has(6, 0.8, 2.0));
+    EXPECT_TRUE(has(6, 0.8, 1.92));
     EXPECT_TRUE(find_plane_quadrilaterals(room.cloud, room.planes, 0.0, 1).empty());
     EXPECT_TRUE(find_plane_quadrilaterals({}, {}, step, 1).empty());
 }
@@ -225,7 +225,7 @@ TEST(LabelByRules, FindsTheDoorTheWindowAndTheFrameInAnyPose) {
         ASSERT_EQ(frames.size(), 1U);
         ASSERT_EQ(windows.size(), 1U);  // and not the picture
         const Eigen::AlignedBox3d door = box_of(*doors[0], room_from_map);
-        EXPECT_LT((door.min() - Vector3d(1.05, -0.08, 0.0)).norm(), 0.05);
+        EXPECT_LT((door.min() - Vector3d(1.05, -0.08, 0.08)).norm(), 0.05);
         EXPECT_LT((door.max() - Vector3d(1.85, -0.08, 2.0)).norm(), 0.05);
         const Eigen::AlignedBox3d frame = box_of(*frames[0], room_from_map);
         EXPECT_LT((frame.max() - Vector3d(1.9, 0.0, 2.05)).norm(), 0.05);

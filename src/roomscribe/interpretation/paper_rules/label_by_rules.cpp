@@ -185,8 +185,14 @@ PointLabels RuleLabeller::label_points(const RuleRoom& room, double plane_tolera
             if (!(depth >= -plane_tolerance && depth <= wall_depth)) continue;
             const double along = point.dot(wall.along);
             const double height = point.dot(up_);
-            if (is_in(opening.leaf.extent, along, height)) return labelled.leaf;
-            if (opening.frame && is_in(opening.frame->extent, along, height)) return labelled.frame;
+            // Lines run through the middle of the rim's points.
+            const auto holds = [&](const RuleRectangle& rectangle) {
+                return is_in(
+                    rectangle.extent.grown(plane_tolerance, plane_tolerance, plane_tolerance),
+                    along, height);
+            };
+            if (holds(opening.leaf)) return labelled.leaf;
+            if (opening.frame && holds(*opening.frame)) return labelled.frame;
         }
         return no_component;
     };

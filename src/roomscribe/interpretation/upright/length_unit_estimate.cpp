@@ -31,6 +31,9 @@ constexpr double max_room_height = 4.0;
 constexpr double min_seen_height = 1.6;
 /// m, of what may lie above a ceiling: voids, beams.
 constexpr double max_above_ceiling = 0.5;
+/// Share of what was seen of a building that is planar, and of this that lies along three axes, at
+/// least.
+constexpr double min_order = 0.5;
 /// m above the floor, on a robot or on a tripod.
 constexpr double min_scanner_height = 0.2;
 constexpr double max_scanner_height = 2.2;
@@ -56,30 +59,22 @@ Scan even_share(const Scan& scan, std::size_t count) {
     return share;
 }
 
-Reading read_in(LengthUnit unit, Scan scan, const Context& context) {
-    Reading reading{unit, std::nullopt, 0.0};
-    scale_in_place(scan.cloud, metres_per(unit));
-    const ScanMap map = map_of_cloud(std::move(scan));
-    const SurfaceSample sample =
-        sample_surface(map, estimate_scan_statistics(map.cloud, context), {}, context);
-    const std::vector<PlanarPatch> patches = grow_planar_patches(
-        sample.cloud, {.distance_tolerance = sample.tolerance, .cell_size = 2.0 * sample.spacing},
-        context);
-    if (patches.empty()) return reading;
-    const PrincipalAxes axes = estimate_principal_axes(patches, {}, context);
-    const Upright upright = find_upright(sample, patches, axes, {}, context);
-    const std::vector<Storey> storeys =
-        find_storeys(patches, upright.up(), upright.facing_is_known, {});
+bool is_within(double value, double low, double high) {
+    return value >= low && value <= high;
+}
 
+/// What is between floor and ceiling along a direction that may be up.
+Reading read_along(const Eigen::Vector3d& up, LengthUnit unit, const SurfaceSample& sample,
+                   std::span<const PlanarPatch> patches) {
+    Reading reading{unit, std::nullopt, 0.0};
     std::vector<double> heights;
     for (const PlanarPatch& patch : patches) {
-        for (const std::uint32_t voxel : patch.points) {
-            heights.push_back(sample.cloud.positions[voxel].cast<double>().dot(upright.up()));
-        }
+        for (const std::uint32_t voxel : patch.points)
+            heights.push_back(sample.cloud.positions[voxel].cast<double>().dot(up));
     }
     const double bottom = quantile(heights, 0.01);
     const double top = quantile(heights, 0.99);
-    const Storey& storey = storeys.back();
+    const Storey storey = find_storeys(patches, up, false, {}).back();
     reading.seen = top - (storey.floor ? storey.floor->height : bottom);
     if (!storey.floor || storey.ceilings.empty()) return reading;
     const Level& ceiling =
@@ -90,8 +85,41 @@ Reading read_in(LengthUnit unit, Scan scan, const Context& context) {
     return reading;
 }
 
-bool is_within(double value, double low, double high) {
-    return value >= low && value <= high;
+bool shows_room(const Reading& reading) {
+    return reading.ceiling && is_within(*reading.ceiling, min_room_height, max_room_height);
+}
+
+Reading read_in(LengthUnit unit, Scan scan, const Context& context) {
+    const Reading nothing{unit, std::nullopt, 0.0};
+    scale_in_place(scan.cloud, metres_per(unit));
+    const ScanMap map = map_of_cloud(std::move(scan));
+    const SurfaceSample sample =
+        sample_surface(map, estimate_scan_statistics(map.cloud, context), {}, context);
+    const std::vector<PlanarPatch> patches = grow_planar_patches(
+        sample.cloud, {.distance_tolerance = sample.tolerance, .cell_size = 2.0 * sample.spacing},
+        context);
+    const PrincipalAxes axes = estimate_principal_axes(patches, {}, context);
+    double area = 0.0;
+    std::size_t num_planar = 0;
+    for (const PlanarPatch& patch : patches) {
+        area += patch.area;
+        num_planar += patch.points.size();
+    }
+    const double planar_share = static_cast<double>(num_planar) /
+                                static_cast<double>(std::max<std::size_t>(sample.cloud.size(), 1));
+    const UprightSettings settings;
+    if (area < settings.min_room_surface || std::min(axes.score, planar_share) < min_order)
+        return nothing;
+    const Upright upright = find_upright(sample, patches, axes, settings, context);
+    // Of one scan it may not be clear which way is up: any that may be will do.
+    Reading best = read_along(upright.candidates.front().up, unit, sample, patches);
+    for (const UprightCandidate& candidate : upright.candidates) {
+        if (shows_room(best)) break;
+        if (upright.candidates.front().score - candidate.score > settings.ambiguous_margin) break;
+        const Reading reading = read_along(candidate.up, unit, sample, patches);
+        if (shows_room(reading)) best = reading;
+    }
+    return best;
 }
 
 /// The readings that show a building.

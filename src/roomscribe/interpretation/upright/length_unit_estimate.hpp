@@ -35,10 +35,11 @@ struct LengthUnitEstimate {
 /// stage takes its scan to be in metres. Costs next to nothing where half of the points are within
 /// 20 of their middle, as in metres they are in all but the largest places. Else some of the points
 /// are read in each unit in turn: planes, which way is up, floor and ceiling. The scan reads as a
-/// building if the ceiling is 2.1 to 4 m above the floor (building practice) and little was seen
-/// above it; where no ceiling was seen in any unit, if what was seen ends 1.6 to 4 m above the
-/// floor. Either range spans less than the factor 2.54 between neighbouring units. Feet are not
-/// told here, since a hall in metres looks like a room in feet: see may_be_feet.
+/// building if most of its surface is planar and lies along three axes, the ceiling is 2.1 to 4 m
+/// above the floor (building practice) and little was seen above it; where no ceiling was seen in
+/// any unit, if what was seen ends 1.6 to 4 m above the floor. Either range spans less than the
+/// factor 2.54 between neighbouring units. Feet are not told here, since a hall in metres looks
+/// like a room in feet: see may_be_feet.
 LengthUnitEstimate estimate_length_unit(const Scan& scan, const Context& context = {});
 
 /// Whether rooms that were found, taken for metres, fit a building in feet and hardly one in
