@@ -6,6 +6,7 @@
 
 #include "cli/choice_option.hpp"
 #include "roomscribe/core/context.hpp"
+#include "roomscribe/core/length_unit.hpp"
 #include "roomscribe/io/point_cloud_io.hpp"
 
 namespace roomscribe::cli {
@@ -15,12 +16,14 @@ struct ConvertOptions {
     std::string input;
     std::string output;
     Encoding encoding = Encoding::automatic;
+    LengthUnit unit = LengthUnit::metre;
 };
 
 ExitCode convert(const ConvertOptions& options, const std::atomic<bool>& cancel) {
     Context context;
     context.cancel = &cancel;
-    const Scan scan = read_scan(options.input, context);
+    Scan scan = read_scan(options.input, context);
+    if (options.unit != LengthUnit::metre) scale_in_place(scan.cloud, metres_per(options.unit));
     write_point_cloud(options.output, scan.cloud, {options.encoding}, context);
     return ExitCode::done;
 }
@@ -45,6 +48,10 @@ void add_convert_command(CLI::App& program, Action& action) {
          {"binary_big_endian", Encoding::binary_big_endian}},
         "auto, ascii, binary, binary_compressed (PCD) or binary_big_endian (PLY)")
         ->type_name("NAME");
+    add_choice_option<LengthUnit>(verb, "--unit", options->unit,
+                                  words_of<LengthUnit>(length_unit_names),
+                                  "Unit of IN's coordinates; OUT has metres")
+        ->type_name("m|mm|cm|in|ft");
     verb.callback([options, &action] {
         action = [options](const std::atomic<bool>& cancel) { return convert(*options, cancel); };
     });

@@ -9,6 +9,7 @@
 
 #include "cli/explain_result.hpp"
 #include "cli/job.hpp"
+#include "cli/scan_unit.hpp"
 #include "cli/text_table.hpp"
 
 namespace roomscribe::cli {
@@ -46,8 +47,10 @@ ExitCode explain(const JobOptions& options, const std::atomic<bool>& cancel) {
     {
         ProgressDisplay display(options.progress);
         const Context context = make_context(options, cancel, display);
-        const std::vector<Scan> scans = load_scans(options.inputs, context);
+        std::vector<Scan> scans = load_scans(options.inputs, context);
+        const ScanUnit unit = convert_to_metres(scans, options.inputs, options.unit, context);
         values = reconstruct(scans, settings, context).derived_values;
+        if (const auto value = unit_as_derived_value(unit)) values.insert(values.begin(), *value);
     }
     fmt::print("{}", options.as_json ? derived_json(values) : derived_table(values));
     return ExitCode::done;

@@ -15,12 +15,11 @@ ExitCode interpret(const JobOptions& options, const std::atomic<bool>& cancel) {
             "interpret takes one cloud, or several with --poses FILE; `roomscribe run` finds the "
             "poses itself");
     }
-    const Work work = [&options](std::vector<Scan>& scans, const PipelineSettings& settings,
-                                 const Context& context) {
+    const Work work = [](std::vector<Scan>& scans, KnownPoses poses,
+                         const PipelineSettings& settings, const Context& context) {
         Reconstruction reconstruction;
-        reconstruction.map = options.pose_files.empty()
-                                 ? map_of_cloud(std::move(scans.front()))
-                                 : merge_scans(scans, load_poses(options, context));
+        reconstruction.map =
+            poses.empty() ? map_of_cloud(std::move(scans.front())) : merge_scans(scans, poses);
         interpret_map(reconstruction, settings, context);
         return reconstruction;
     };

@@ -12,6 +12,7 @@
 
 #include "cli/job_result.hpp"
 #include "cli/output_folder.hpp"
+#include "cli/scan_unit.hpp"
 #include "roomscribe/core/error.hpp"
 #include "roomscribe/geometry/bounding_box.hpp"
 #include "roomscribe/io/point_cloud_io.hpp"
@@ -101,6 +102,16 @@ std::filesystem::path write_results(const std::filesystem::path& folder,
     return report;
 }
 
+/// What is to be said of the unit, in run.json too.
+void note_unit(JobSummary& summary, Reconstruction& reconstruction) {
+    auto& values = reconstruction.derived_values;
+    if (const auto unit = unit_as_derived_value(summary.unit)) values.insert(values.begin(), *unit);
+    summary.doubt = doubt_about_feet(reconstruction);
+    if (!summary.doubt.empty()) {
+        values.push_back({"interpretation.feet", metres_per(LengthUnit::foot), "m", summary.doubt});
+    }
+}
+
 }  // namespace
 
 Context make_context(const JobOptions& options, const std::atomic<bool>& cancel,
@@ -156,8 +167,12 @@ ExitCode run_job(std::string_view verb, const JobOptions& options, const std::at
         ReportInfo info;
         info.run = make_record(verb, options, settings);
         std::vector<Scan> scans = load_scans(options.inputs, context);
-        reconstruction = work(scans, settings, context);
+        std::vector<std::optional<Transform>> poses = load_poses(options, context);
+        summary.unit = convert_to_metres(scans, options.inputs, options.unit, context);
+        convert_to_metres(poses, summary.unit);
+        reconstruction = work(scans, poses, settings, context);
         context.throw_if_cancelled();
+        note_unit(summary, reconstruction);
         info.score = summary.score = score(options, reconstruction, context);
         summary.report = write_results(output.path(), reconstruction, scans, info, context);
     }

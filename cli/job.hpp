@@ -30,13 +30,14 @@ std::vector<Scan> load_scans(std::span<const std::string> paths, const Context& 
 /// that cannot be read or another number of poses.
 std::vector<std::optional<Transform>> load_poses(const JobOptions& options, const Context& context);
 
-/// What a job computes from its scans.
-using Work = std::function<Reconstruction(
-    std::vector<Scan>& scans, const PipelineSettings& settings, const Context& context)>;
+/// What a job computes from its scans and what is known of their poses (--poses), in metres.
+using Work =
+    std::function<Reconstruction(std::vector<Scan>& scans, KnownPoses poses,
+                                 const PipelineSettings& settings, const Context& context)>;
 
-/// The frame of every job: resolves the settings, makes the output folder, reads the scans, works,
-/// writes what was found with run.json and the report, and prints the result. `verb` is for
-/// run.json.
+/// The frame of every job: resolves the settings, makes the output folder, reads the scans, brings
+/// them into metres, works, writes what was found with run.json and the report, and prints the
+/// result. `verb` is for run.json.
 ExitCode run_job(std::string_view verb, const JobOptions& options, const std::atomic<bool>& cancel,
                  const Work& work);
 

@@ -37,6 +37,18 @@ void add_scans(CLI::App& verb, JobOptions& options) {
     verb.add_option("SCANS", options.inputs, "Scans: PCD, PLY, UOS .3d or legacy VTK")
         ->type_name("")
         ->required();
+    add_unit(verb, options.unit);
+}
+
+void add_unit(CLI::App& verb, std::optional<LengthUnit>& unit) {
+    std::map<std::string, std::optional<LengthUnit>> words{{"auto", std::nullopt}};
+    for (std::size_t i = 0; i < length_unit_names.size(); ++i)
+        words.emplace(length_unit_names[i], static_cast<LengthUnit>(i));
+    add_choice_option<std::optional<LengthUnit>>(
+        verb, "--unit", unit, words,
+        "Unit of the coordinates in the files, poses too; auto: told by the size of the rooms. "
+        "Results are in metres")
+        ->type_name("auto|m|mm|cm|in|ft");
 }
 
 void add_poses(CLI::App& verb, JobOptions& options) {

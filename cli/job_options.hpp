@@ -8,6 +8,7 @@
 #include <CLI/App.hpp>
 
 #include "cli/progress_display.hpp"
+#include "roomscribe/core/length_unit.hpp"
 #include "roomscribe/pipeline/pipeline_settings.hpp"
 
 namespace roomscribe::cli {
@@ -16,6 +17,7 @@ namespace roomscribe::cli {
 struct JobOptions {
     std::vector<std::string> inputs;
     std::vector<std::string> pose_files;  ///< what is known of where the scans stand
+    std::optional<LengthUnit> unit;       ///< of the scans; empty: told by their size
     std::string output;
     std::string truth;  ///< folder; empty where nobody knows
     std::string settings_file;
@@ -30,8 +32,11 @@ struct JobOptions {
 /// the help of the verb.
 void add_job_options(CLI::App& verb, JobOptions& options);
 
-/// Declares the scans, which the verb needs.
+/// Declares the scans, which the verb needs, and --unit.
 void add_scans(CLI::App& verb, JobOptions& options);
+
+/// Declares --unit.
+void add_unit(CLI::App& verb, std::optional<LengthUnit>& unit);
 
 /// Declares --poses, which says where the scans stand.
 void add_poses(CLI::App& verb, JobOptions& options);

@@ -230,6 +230,11 @@ Json labels_to_json(const Reconstruction& reconstruction) {
 
 std::string result_tables(const Reconstruction& reconstruction, const JobSummary& summary) {
     std::string text = scan_table(reconstruction);
+    if (summary.unit.unit != LengthUnit::metre) {
+        text += fmt::format("\nthe scans are in {} ({}): results are in metres\n",
+                            length_unit_word(summary.unit.unit), summary.unit.reason);
+    }
+    if (!summary.doubt.empty()) text += fmt::format("\n{}\n", summary.doubt);
     if (reconstruction.registration && !reconstruction.registration->links.empty()) {
         text += fmt::format("\n{}", link_table(reconstruction));
     }
@@ -252,6 +257,8 @@ std::string result_json(const Reconstruction& reconstruction, const JobSummary& 
     result["output"] = summary.output;
     result["report"] = summary.report;
     result["seconds"] = summary.seconds;
+    result["input_unit"] = length_unit_name(summary.unit.unit);
+    if (!summary.doubt.empty()) result["doubt"] = summary.doubt;
     result["scans"] = scans_to_json(reconstruction);
     if (reconstruction.registration) {
         result["links"] = links_to_json(*reconstruction.registration);

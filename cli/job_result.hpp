@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "cli/scan_unit.hpp"
 #include "roomscribe/evaluation/evaluation_summary.hpp"
 #include "roomscribe/pipeline/reconstruct.hpp"
 
@@ -14,6 +15,8 @@ struct JobSummary {
     std::string output;  ///< folder
     std::string report;  ///< file
     double seconds = 0.0;
+    ScanUnit unit;                           ///< of the scans
+    std::string doubt;                       ///< of that unit, in one line; empty if there is none
     std::optional<EvaluationSummary> score;  ///< against truth, where it was given
 };
 

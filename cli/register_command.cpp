@@ -18,10 +18,9 @@ void add_register_command(CLI::App& program, Action& action) {
     verb.callback([options, &action] {
         action = [options](const std::atomic<bool>& cancel) {
             return run_job("register", *options, cancel,
-                           [&options](std::vector<Scan>& scans, const PipelineSettings& settings,
-                                      const Context& context) {
-                               return register_to_map(scans, settings, context,
-                                                      load_poses(*options, context));
+                           [](std::vector<Scan>& scans, KnownPoses poses,
+                              const PipelineSettings& settings, const Context& context) {
+                               return register_to_map(scans, settings, context, poses);
                            });
         };
     });

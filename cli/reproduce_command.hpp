@@ -7,8 +7,8 @@
 
 namespace roomscribe::cli {
 
-/// `roomscribe reproduce table1 | table2 | figure1`: the paper's experiments, its figures beside
-/// ours.
+/// `roomscribe reproduce table1 | table2 | table4 | figure1`: the paper's experiments, its figures
+/// beside ours.
 void add_reproduce_command(CLI::App& program, Action& action);
 
 }  // namespace roomscribe::cli

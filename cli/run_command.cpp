@@ -18,10 +18,9 @@ void add_run_command(CLI::App& program, Action& action) {
     verb.callback([options, &action] {
         action = [options](const std::atomic<bool>& cancel) {
             return run_job("run", *options, cancel,
-                           [&options](std::vector<Scan>& scans, const PipelineSettings& settings,
-                                      const Context& context) {
-                               return reconstruct(scans, settings, context,
-                                                  load_poses(*options, context));
+                           [](std::vector<Scan>& scans, KnownPoses poses,
+                              const PipelineSettings& settings, const Context& context) {
+                               return reconstruct(scans, settings, context, poses);
                            });
         };
     });

@@ -51,6 +51,24 @@ TEST(Reproduce, TableTwoStandsBesideThePapers) {
     expect_error(roomscribe({"reproduce", "table2", "--scans", scan, scan}), 2, {"--poses"});
 }
 
+TEST(Reproduce, TableFourStandsBesideThePapers) {
+    const ProgramResult result = roomscribe({"reproduce", "table4", "--scenes", "1", "--json"});
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_THAT(result.err, HasSubstr("1/1  office-2"));
+    const auto json = nlohmann::json::parse(result.out);
+    EXPECT_EQ(json.at("scenes"), 1);
+    ASSERT_EQ(json.at("rows").size(), 9U);
+    const auto& wall = json["rows"][2];
+    EXPECT_EQ(wall.at("label"), "wall");
+    EXPECT_EQ(wall.at("paper").at("correct"), 50);
+    for (const char* way : {"by_rules", "by_default"}) {
+        EXPECT_EQ(wall.at(way).at("ground_truth"), 4) << way;
+        EXPECT_GE(wall[way].at("correct"), 3) << way;
+        EXPECT_EQ(wall[way].at("scenes"), 1) << way;
+    }
+    expect_error(roomscribe({"reproduce", "table4", "--scenes", "14"}), 2, {"--scenes"});
+}
+
 TEST(Reproduce, FigureOneIsAPicture) {
     const TemporaryFolder folder;
     const std::string path = (folder / "figure.svg").string();

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "roomscribe/geometry/point_cloud.hpp"
 
+#include <algorithm>
 #include <cstring>
+
+#include "roomscribe/core/quantile.hpp"
 
 namespace roomscribe {
 namespace {
@@ -66,6 +69,33 @@ PointCloud select_points(const PointCloud& cloud, std::span<const std::uint32_t>
     selected.sensor_pose = cloud.sensor_pose;
     selected.global_shift = cloud.global_shift;
     return selected;
+}
+
+double median_distance(std::span<const Eigen::Vector3f> points) {
+    constexpr std::size_t num_samples = 10000;
+    const std::size_t step = std::max<std::size_t>(1, points.size() / num_samples);
+    std::vector<Eigen::Vector3d> sample;
+    for (std::size_t i = 0; i < points.size(); i += step) {
+        if (is_finite(points[i])) sample.push_back(points[i].cast<double>());
+    }
+    if (sample.empty()) return 0.0;
+    Eigen::Vector3d middle;
+    std::vector<double> values(sample.size());
+    for (Eigen::Index axis = 0; axis < 3; ++axis) {
+        std::transform(sample.begin(), sample.end(), values.begin(),
+                       [axis](const Eigen::Vector3d& point) { return point[axis]; });
+        middle[axis] = median(values);
+    }
+    std::transform(sample.begin(), sample.end(), values.begin(),
+                   [&](const Eigen::Vector3d& point) { return (point - middle).norm(); });
+    return median(values);
+}
+
+void scale_in_place(PointCloud& cloud, double factor) {
+    for (Eigen::Vector3f& point : cloud.positions)
+        point = (factor * point.cast<double>()).cast<float>();
+    if (cloud.sensor_pose) cloud.sensor_pose->translation() *= factor;
+    cloud.global_shift *= factor;
 }
 
 void transform_in_place(PointCloud& cloud, const Transform& target_from_source) {

@@ -79,6 +79,15 @@ std::vector<std::uint32_t> finite_points(const PointCloud& cloud);
 /// dropped, the sensor pose kept. Precondition: every index < cloud.size().
 PointCloud select_points(const PointCloud& cloud, std::span<const std::uint32_t> indices);
 
+/// How far half of the finite points are from their middle, from an even sample of them; the middle
+/// is the median along each axis. Far returns and ghosts blow up the box of a scan, but not this. 0
+/// if there is none.
+double median_distance(std::span<const Eigen::Vector3f> points);
+
+/// Multiplies all coordinates: positions, the sensor pose's place and the global shift. Channels
+/// stay as they are.
+void scale_in_place(PointCloud& cloud, double factor);
+
 /// Moves positions, normals and sensor pose. Grid, colours and channels are kept.
 void transform_in_place(PointCloud& cloud, const Transform& target_from_source);
 

@@ -3,12 +3,10 @@
 
 #include <algorithm>
 #include <cctype>
-#include <cmath>
 
 #include <fmt/format.h>
 
 #include "roomscribe/core/error.hpp"
-#include "roomscribe/core/quantile.hpp"
 #include "roomscribe/io/byte_reader.hpp"
 #include "roomscribe/io/file_contents.hpp"
 #include "roomscribe/io/pcd.hpp"
@@ -21,7 +19,6 @@ namespace {
 
 /// Half the points of an indoor place lie nearer to its middle than this, in metres.
 constexpr double largest_median_distance = 100.0;
-constexpr std::size_t num_samples = 10000;
 
 std::string lower_extension(const std::filesystem::path& path) {
     std::string extension = path.extension().string();
@@ -42,33 +39,13 @@ FileContents read_contents(const std::filesystem::path& path, const Context& con
                   "give a .pcd, .ply, .3d or .vtk file");
 }
 
-/// How far half of the points are from their middle, from an even sample. Far returns and ghosts
-/// blow up the box of a scan, but not this.
-double median_distance(const PointCloud& cloud, std::span<const std::uint32_t> finite) {
-    const std::size_t step = std::max<std::size_t>(1, finite.size() / num_samples);
-    Eigen::Vector3d middle;
-    std::vector<double> values;
-    for (Eigen::Index axis = 0; axis < 3; ++axis) {
-        values.clear();
-        for (std::size_t i = 0; i < finite.size(); i += step) {
-            values.push_back(static_cast<double>(cloud.positions[finite[i]][axis]));
-        }
-        middle[axis] = median(values);
-    }
-    values.clear();
-    for (std::size_t i = 0; i < finite.size(); i += step) {
-        values.push_back((cloud.positions[finite[i]].cast<double>() - middle).norm());
-    }
-    return median(values);
-}
-
 void add_warnings(FileSummary& summary, const PointCloud& cloud,
                   std::span<const std::uint32_t> finite) {
     if (finite.empty()) {
         summary.warnings.emplace_back("no point has finite coordinates");
         return;
     }
-    const double distance = median_distance(cloud, finite);
+    const double distance = median_distance(cloud.positions);
     if (distance > largest_median_distance) {
         summary.warnings.push_back(fmt::format(
             "half of the points are more than {:.0f} from their middle: the coordinates look like "

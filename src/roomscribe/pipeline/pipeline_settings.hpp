@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "roomscribe/core/settings.hpp"
+#include "roomscribe/interpretation/paper_rules/paper_rules_settings.hpp"
 #include "roomscribe/interpretation/point_labels.hpp"
 #include "roomscribe/interpretation/rooms/room_surfaces.hpp"
 #include "roomscribe/interpretation/upright/upright.hpp"
@@ -37,6 +38,17 @@ enum class AxesMethod : std::uint8_t {
 
 inline std::span<const std::string_view> enumerator_names(AxesMethod) {
     static constexpr std::array<std::string_view, 2> names{"consensus", "algorithm_2"};
+    return names;
+}
+
+/// How a map is interpreted.
+enum class InterpretationMethod : std::uint8_t {
+    standard,  ///< what works best ("default")
+    paper      ///< the paper's section 4, from its planes to its rules
+};
+
+inline std::span<const std::string_view> enumerator_names(InterpretationMethod) {
+    static constexpr std::array<std::string_view, 2> names{"default", "paper"};
     return names;
 }
 
@@ -76,14 +88,22 @@ struct StructureSettings {
 };
 
 struct InterpretationSettings {
+    InterpretationMethod method = InterpretationMethod::standard;
     UprightSettings upright;
     RoomSurfacesSettings surfaces;
     PointLabelSettings labels;
+    PaperRulesSettings paper;  ///< of the method `paper`
 
     void visit(SettingVisitor& visitor) {
+        visitor(method,
+                {.name = "method",
+                 .unit = "",
+                 .doc = "What works best, or the paper's section 4 whole: its planes, axes, "
+                        "quadrilaterals and rules, by the settings under paper."});
         visitor.group("upright", upright);
         visitor.group("surfaces", surfaces);
         visitor.group("labels", labels);
+        visitor.group("paper", paper);
     }
 };
 

@@ -7,6 +7,9 @@
 
 #include "roomscribe/interpretation/component_support.hpp"
 #include "roomscribe/interpretation/openings/wall_openings.hpp"
+#include "roomscribe/interpretation/paper_rules/label_by_rules.hpp"
+#include "roomscribe/interpretation/paper_rules/orient_by_door.hpp"
+#include "roomscribe/interpretation/paper_rules/plane_quadrilaterals.hpp"
 #include "roomscribe/preprocessing/saturated_returns.hpp"
 #include "roomscribe/preprocessing/scan_origin.hpp"
 #include "roomscribe/structure/planar_surfaces.hpp"
@@ -84,6 +87,110 @@ void infer_scanner(Reconstruction& reconstruction) {
                            "scanned from is not known"});
 }
 
+/// Times stages and reports that they are done.
+class StageReporter {
+  public:
+    StageReporter(Reconstruction& reconstruction, const Context& context)
+        : timer_(reconstruction.stage_costs), context_(context) {}
+
+    void finish(const char* stage, double fraction) {
+        timer_.finish(stage);
+        context_.report_progress("interpret", fraction);
+        context_.throw_if_cancelled();
+    }
+
+  private:
+    StageTimer timer_;
+    const Context& context_;
+};
+
+void interpret_by_default(Reconstruction& reconstruction, const ScanMap& map,
+                          const PipelineSettings& settings, const Context& context) {
+    StageReporter stages(reconstruction, context);
+    const ScanStatistics statistics = estimate_scan_statistics(map.cloud, context);
+    SurfaceSample sample = sample_surface(map, statistics, settings.structure.sample, context);
+    sample.tolerance = settings.structure.plane_tolerance.value_or(sample.tolerance);
+    stages.finish("sample surface", 0.4);
+    const std::vector<PlanarPatch> patches = find_planes(map, sample, settings, context);
+    stages.finish("planes", 0.7);
+    const PrincipalAxes axes = find_axes(map, sample, patches, settings, context);
+    stages.finish("principal axes", 0.75);
+    const Upright upright =
+        find_upright(sample, patches, axes, settings.interpretation.upright, context);
+    stages.finish("upright", 0.8);
+    RoomSurfaces surfaces = find_room_surfaces(map, sample, patches, upright,
+                                               settings.interpretation.surfaces, context);
+    stages.finish("floor, ceiling, walls", 0.85);
+    Openings openings = find_openings(map, sample, patches, surfaces, upright.room_from_map,
+                                      statistics.point_spacing, context);
+    stages.finish("doors, windows", 0.9);
+    reconstruction.labels = label_points(map.cloud, sample, patches, surfaces, openings,
+                                         settings.interpretation.labels, context);
+    stages.finish("point labels", 1.0);
+
+    reconstruction.scene.room_from_map = surfaces.room_from_map;
+    reconstruction.scene.rooms = std::move(surfaces.rooms);
+    for (RoomSurface& surface : surfaces.surfaces) {
+        reconstruction.scene.components.push_back(std::move(surface.component));
+    }
+    std::move(openings.components.begin(), openings.components.end(),
+              std::back_inserter(reconstruction.scene.components));
+    add_derived_values(reconstruction.derived_values, statistics, sample, settings.structure);
+}
+
+/// The default's word on which way is up, for maps in which the paper's rule finds no door.
+Eigen::Matrix3d upright_without_door(const ScanMap& map, const ScanStatistics& statistics,
+                                     const PipelineSettings& settings, const Context& context) {
+    const SurfaceSample sample =
+        sample_surface(map, statistics, settings.structure.sample, context);
+    const std::vector<PlanarPatch> patches = find_planes(map, sample, settings, context);
+    const PrincipalAxes axes = find_axes(map, sample, patches, settings, context);
+    return find_upright(sample, patches, axes, settings.interpretation.upright, context)
+        .room_from_map;
+}
+
+/// The paper's section 4 (docs/reproduction.md). Its planes are of the whole map, which no voxel
+/// grid thins: 2,500 inliers mean points as they were scanned.
+void interpret_as_paper(Reconstruction& reconstruction, const ScanMap& map,
+                        const PipelineSettings& settings, const Context& context) {
+    const PaperRulesSettings& rules = settings.interpretation.paper;
+    StageReporter stages(reconstruction, context);
+    const ScanStatistics statistics = estimate_scan_statistics(map.cloud, context);
+    const double tolerance =
+        settings.structure.plane_tolerance.value_or(plane_tolerance(statistics.noise));
+    PlaneRansacSettings planes_settings;
+    planes_settings.detection = {.distance_tolerance = tolerance,
+                                 .min_inliers = settings.structure.min_plane_inliers};
+    const std::vector<PlanarPatch> planes =
+        detect_planes_ransac(map.cloud, seed_of(settings), planes_settings, context).planes;
+    stages.finish("planes", 0.6);
+    const PrincipalAxes axes = principal_axes_of_planes(planes, rules.angle_tolerance);
+    const std::vector<PlaneQuadrilateral> quadrilaterals = find_plane_quadrilaterals(
+        map.cloud, planes, statistics.point_spacing, seed_of(settings), rules, context);
+    stages.finish("quadrilaterals", 0.8);
+    const DoorOrientation orientation = orient_by_door(quadrilaterals, planes, axes, rules);
+    const bool has_door = orientation.stop == DoorOrientationStop::door_found;
+    const Eigen::Matrix3d room_from_map =
+        has_door ? orientation.room_from_map
+                 : upright_without_door(map, statistics, settings, context);
+    stages.finish("upright", 0.9);
+    RuleLabels found =
+        label_by_rules(map.cloud, planes, quadrilaterals, room_from_map, tolerance, rules, context);
+    stages.finish("rules", 1.0);
+
+    reconstruction.scene = std::move(found.scene);
+    reconstruction.labels = std::move(found.labels);
+    reconstruction.derived_values.push_back(
+        {"interpretation.paper.doors_that_say_up", static_cast<double>(orientation.num_doors), "",
+         has_door ? "quadrilaterals of a door's size on an edge of a bigger one"
+                  : "none: the default decided which way is up"});
+    reconstruction.derived_values.push_back(
+        {"structure.plane_tolerance", tolerance, "m",
+         settings.structure.plane_tolerance
+             ? "set by hand"
+             : "three times the noise and the evenness of finished walls"});
+}
+
 }  // namespace
 
 Reconstruction register_to_map(std::span<const Scan> scans, const PipelineSettings& settings,
@@ -109,43 +216,12 @@ void interpret_map(Reconstruction& reconstruction, const PipelineSettings& setti
     infer_scanner(reconstruction);
     const std::optional<ScanMap> cleaned = without_saturated_returns(reconstruction.map);
     const ScanMap& map = cleaned ? *cleaned : reconstruction.map;
-    StageTimer timer(reconstruction.stage_costs);
-    const auto finish = [&](const char* stage, double fraction) {
-        timer.finish(stage);
-        context.report_progress("interpret", fraction);
-        context.throw_if_cancelled();
-    };
-
-    const ScanStatistics statistics = estimate_scan_statistics(map.cloud, context);
-    SurfaceSample sample = sample_surface(map, statistics, settings.structure.sample, context);
-    sample.tolerance = settings.structure.plane_tolerance.value_or(sample.tolerance);
-    finish("sample surface", 0.4);
-    const std::vector<PlanarPatch> patches = find_planes(map, sample, settings, context);
-    finish("planes", 0.7);
-    const PrincipalAxes axes = find_axes(map, sample, patches, settings, context);
-    finish("principal axes", 0.75);
-    const Upright upright =
-        find_upright(sample, patches, axes, settings.interpretation.upright, context);
-    finish("upright", 0.8);
-    RoomSurfaces surfaces = find_room_surfaces(map, sample, patches, upright,
-                                               settings.interpretation.surfaces, context);
-    finish("floor, ceiling, walls", 0.85);
-    Openings openings = find_openings(map, sample, patches, surfaces, upright.room_from_map,
-                                      statistics.point_spacing, context);
-    finish("doors, windows", 0.9);
-    reconstruction.labels = label_points(map.cloud, sample, patches, surfaces, openings,
-                                         settings.interpretation.labels, context);
-    finish("point labels", 1.0);
-
-    reconstruction.scene.room_from_map = surfaces.room_from_map;
-    reconstruction.scene.rooms = std::move(surfaces.rooms);
-    for (RoomSurface& surface : surfaces.surfaces) {
-        reconstruction.scene.components.push_back(std::move(surface.component));
+    if (settings.interpretation.method == InterpretationMethod::paper) {
+        interpret_as_paper(reconstruction, map, settings, context);
+    } else {
+        interpret_by_default(reconstruction, map, settings, context);
     }
-    std::move(openings.components.begin(), openings.components.end(),
-              std::back_inserter(reconstruction.scene.components));
     measure_support(map, reconstruction.labels, reconstruction.scene.components, context);
-    add_derived_values(reconstruction.derived_values, statistics, sample, settings.structure);
 }
 
 Reconstruction reconstruct(std::span<const Scan> scans, const PipelineSettings& settings,

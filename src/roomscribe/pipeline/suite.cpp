@@ -141,4 +141,21 @@ SuiteSceneResult run_suite_scene(const SuiteScene& scene, bool registers_only,
     return result;
 }
 
+std::vector<Evaluation> compare_interpretations(const SuiteScene& scene,
+                                                std::span<const InterpretationMethod> methods,
+                                                const Context& context) {
+    const SimulatedScene simulated =
+        simulate_scene(plan_scene(scene.kind, scene.seed, scene.options), context);
+    PipelineSettings settings;
+    const Reconstruction registered = register_to_map(simulated.scans, settings, context);
+    std::vector<Evaluation> evaluations;
+    for (const InterpretationMethod method : methods) {
+        settings.interpretation.method = method;
+        Reconstruction interpreted = registered;
+        interpret_map(interpreted, settings, context);
+        evaluations.push_back(score_reconstruction(simulated.truth, interpreted, context));
+    }
+    return evaluations;
+}
+
 }  // namespace roomscribe

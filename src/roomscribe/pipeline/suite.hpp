@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -54,5 +55,11 @@ struct SuiteSceneResult {
 SuiteSceneResult run_suite_scene(const SuiteScene& scene, bool registers_only,
                                  const PipelineSettings& settings = {},
                                  const Context& context = {});
+
+/// Makes a scene, registers its scans once, and holds what each of the methods makes of the map
+/// against truth: one evaluation per method.
+std::vector<Evaluation> compare_interpretations(const SuiteScene& scene,
+                                                std::span<const InterpretationMethod> methods,
+                                                const Context& context = {});
 
 }  // namespace roomscribe

@@ -12,6 +12,7 @@
 #include <Eigen/Core>
 
 #include "roomscribe/core/context.hpp"
+#include "roomscribe/model/label.hpp"
 #include "roomscribe/reproduction/simulated_pairs.hpp"
 
 namespace roomscribe {
@@ -70,5 +71,25 @@ std::array<AxisErrors, 3> table_2_of_paper();
 /// Precondition: every pair has its true pose.
 std::array<AlignmentComparison, 3> compare_alignments(std::span<const ScanPair> pairs,
                                                       const Context& context = {});
+
+/// A row of the paper's Table 4. Its accuracy is correct / ground_truth.
+struct DetectionFigures {
+    Label label = Label::unknown;
+    int ground_truth = 0;
+    int correct = 0;
+    int scenes = 0;  ///< that the label is present in
+};
+
+inline constexpr std::array<DetectionFigures, 9> table_4_of_paper{{
+    {Label::floor, 11, 11, 11},
+    {Label::ceiling, 11, 11, 11},
+    {Label::wall, 53, 50, 13},
+    {Label::door, 10, 8, 6},
+    {Label::door_frame, 10, 8, 6},
+    {Label::window, 10, 8, 4},
+    {Label::window_frame, 10, 4, 4},
+    {Label::furniture, 35, 33, 8},
+    {Label::handle, 27, 25, 2},
+}};
 
 }  // namespace roomscribe

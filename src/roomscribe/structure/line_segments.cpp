@@ -21,8 +21,8 @@ struct Line {
     Vector3d direction = Vector3d::UnitX();
 
     double position_of(const Vector3d& other) const { return direction.dot(other - point); }
-    double distance_to(const Vector3d& other) const {
-        return direction.cross(other - point).norm();
+    bool is_within(const Vector3d& other, double distance) const {
+        return direction.cross(other - point).squaredNorm() <= distance * distance;
     }
 };
 
@@ -33,6 +33,15 @@ struct LineProblem {
     std::span<const Eigen::Vector3f> positions;
     std::span<const std::uint32_t> points;
     double tolerance;
+    std::vector<Vector3d> places;  ///< of the points, one after another
+
+    LineProblem(std::span<const Eigen::Vector3f> all, std::span<const std::uint32_t> numbers,
+                double distance)
+        : positions(all), points(numbers), tolerance(distance) {
+        places.reserve(points.size());
+        for (const std::uint32_t point : points)
+            places.push_back(at(point));
+    }
 
     Vector3d at(std::uint32_t point) const { return positions[point].cast<double>(); }
     std::size_t num_data() const { return points.size(); }
@@ -50,13 +59,13 @@ struct LineProblem {
     }
 
     bool is_inlier(const Line& line, std::uint32_t point) const {
-        return line.distance_to(at(point)) <= tolerance;
+        return line.is_within(at(point), tolerance);
     }
 
     double score(const Line& line) const {
         return static_cast<double>(
-            std::count_if(points.begin(), points.end(),
-                          [&](std::uint32_t point) { return is_inlier(line, point); }));
+            std::count_if(places.begin(), places.end(),
+                          [&](const Vector3d& place) { return line.is_within(place, tolerance); }));
     }
 };
 

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "roomscribe/structure/plane_ransac.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "roomscribe/core/parallel.hpp"
 
@@ -56,6 +58,15 @@ struct PlaneProblem {
     }
 };
 
+/// All points, or about `count` of them evenly spread over their order.
+std::vector<std::uint32_t> even_share(std::span<const std::uint32_t> points, std::size_t count) {
+    count = std::min(count, points.size());
+    std::vector<std::uint32_t> share(count);
+    for (std::size_t i = 0; i < count; ++i)
+        share[i] = points[i * points.size() / count];
+    return share;
+}
+
 }  // namespace
 
 PlaneDetectionResult detect_planes_ransac(const PointCloud& cloud, std::uint64_t seed,
@@ -64,7 +75,9 @@ PlaneDetectionResult detect_planes_ransac(const PointCloud& cloud, std::uint64_t
     check_settings(settings);
     std::uint64_t draw = seed;
     const auto find_plane = [&](std::span<const std::uint32_t> left) {
-        const PlaneProblem problem{cloud.positions, left, settings.detection.distance_tolerance,
+        const std::vector<std::uint32_t> scored =
+            even_share(left, static_cast<std::size_t>(settings.max_scored_points));
+        const PlaneProblem problem{cloud.positions, scored, settings.detection.distance_tolerance,
                                    context};
         return sample_consensus(problem, draw++, settings.consensus).model;
     };

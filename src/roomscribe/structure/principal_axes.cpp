@@ -194,15 +194,20 @@ PrincipalAxes estimate_principal_axes_paper(const PointCloud& cloud, std::uint64
                                             const PaperAxesSettings& settings,
                                             const Context& context) {
     check_settings(settings);
-    const double max_dot = std::sin(settings.angle_tolerance);
     // Steps 2-4, 26 and 31: fit a plane, take out its inliers, again until too few are left. All
     // planes are fitted first; those behind the third axis are looked at no more (steps 28-30).
-    const PlaneDetectionResult found = detect_planes_ransac(cloud, seed, settings.planes, context);
+    return principal_axes_of_planes(
+        detect_planes_ransac(cloud, seed, settings.planes, context).planes,
+        settings.angle_tolerance);
+}
 
+PrincipalAxes principal_axes_of_planes(std::span<const PlanarPatch> planes,
+                                       double angle_tolerance) {
+    const double max_dot = std::sin(angle_tolerance);
     std::optional<Eigen::Vector3d> plane1;
     std::optional<Eigen::Vector3d> plane2;
     std::optional<Eigen::Vector3d> plane3;
-    for (const PlanarPatch& patch : found.planes) {
+    for (const PlanarPatch& patch : planes) {
         const Eigen::Vector3d& normal = patch.plane.normal;
         if (!plane1) {  // steps 5-8
             plane1 = normal;
@@ -229,9 +234,9 @@ PrincipalAxes estimate_principal_axes_paper(const PointCloud& cloud, std::uint64
         result.stop = PrincipalAxesStop::three_planes;
     }
     result.axes = axes;
-    const double area = total_area(found.planes);
+    const double area = total_area(planes);
     if (area > 0.0) {
-        result.score = agreeing_area(found.planes, axes, std::cos(settings.angle_tolerance)) / area;
+        result.score = agreeing_area(planes, axes, std::cos(angle_tolerance)) / area;
     }
     return result;
 }

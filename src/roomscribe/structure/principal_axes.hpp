@@ -84,4 +84,8 @@ PrincipalAxes estimate_principal_axes_paper(const PointCloud& cloud, std::uint64
                                             const PaperAxesSettings& settings = {},
                                             const Context& context = {});
 
+/// Steps 5 to 30 of it, for planes that were found before, in the order in which they were.
+PrincipalAxes principal_axes_of_planes(std::span<const PlanarPatch> planes,
+                                       double angle_tolerance = radians(5.0));
+
 }  // namespace roomscribe
