@@ -5,6 +5,7 @@
 #include <iterator>
 #include <utility>
 
+#include "roomscribe/interpretation/furniture/furniture.hpp"
 #include "roomscribe/interpretation/openings/wall_openings.hpp"
 #include "roomscribe/structure/planar_surfaces.hpp"
 #include "roomscribe/structure/plane_hough.hpp"
@@ -110,7 +111,13 @@ void interpret_map(Reconstruction& reconstruction, const PipelineSettings& setti
     finish("doors, windows", 0.9);
     reconstruction.labels = label_points(map.cloud, sample, patches, surfaces, openings,
                                          settings.interpretation.labels, context);
-    finish("point labels", 1.0);
+    finish("point labels", 0.95);
+    const std::size_t num_before = surfaces.surfaces.size() + openings.components.size();
+    Furniture furniture =
+        find_furniture(map, sample, patches, surfaces, reconstruction.labels.labels,
+                       static_cast<std::int32_t>(num_before), context);
+    label_furniture(sample, furniture, reconstruction.labels);
+    finish("furniture", 1.0);
 
     reconstruction.scene.room_from_map = surfaces.room_from_map;
     reconstruction.scene.rooms = std::move(surfaces.rooms);
@@ -118,6 +125,8 @@ void interpret_map(Reconstruction& reconstruction, const PipelineSettings& setti
         reconstruction.scene.components.push_back(std::move(surface.component));
     }
     std::move(openings.components.begin(), openings.components.end(),
+              std::back_inserter(reconstruction.scene.components));
+    std::move(furniture.components.begin(), furniture.components.end(),
               std::back_inserter(reconstruction.scene.components));
     add_derived_values(reconstruction.derived_values, statistics, sample, settings.structure);
 }

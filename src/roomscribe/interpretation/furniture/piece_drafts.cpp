@@ -1,0 +1,303 @@
+// SPDX-License-Identifier: MIT
+#include "roomscribe/interpretation/furniture/piece_drafts.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <utility>
+
+#include "roomscribe/core/disjoint_sets.hpp"
+#include "roomscribe/interpretation/furniture/row_cuts.hpp"
+
+namespace roomscribe {
+namespace {
+
+constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
+/// m above the floor, see docs/furniture.md: seats 0.40 to 0.52 with cushions; tables from 0.65,
+/// counters to 1.1; a child's table or a low chest between.
+constexpr double min_seat = 0.36;
+constexpr double max_seat = 0.56;
+constexpr double max_low = 0.58;
+constexpr double max_table = 1.2;
+/// m: a chair's seat is at most as wide as an office chair.
+constexpr double max_seat_width = 0.62;
+/// m: handles project 25 to 40 mm, tops overhang as much.
+constexpr double beside = 0.06;
+/// m: a chair's back leans out behind its seat, its castors reach out under it.
+constexpr double beside_seat = 0.16;
+/// m above a seat to the upper end of a back.
+constexpr double back_height = 0.75;
+/// m: boards of a shelf are no further apart (a folder needs 0.32, coats more but behind doors).
+constexpr double max_board_gap = 0.65;
+/// Fewer voxels tell no thing: 25 of 4 cm are a square of 20 cm.
+constexpr std::size_t min_voxels = 25;
+
+bool is_lying_over(double share) {
+    return share >= 0.7;
+}
+
+/// Boards above each other: alike in length and depth.
+bool are_boards(const LevelSlab& a, const LevelSlab& b, double share_of_a, double share_of_b) {
+    if (std::abs(a.height - b.height) > max_board_gap) return false;
+    const double shorter = std::min(a.rectangle.length, b.rectangle.length);
+    const double longer = std::max(a.rectangle.length, b.rectangle.length);
+    // A board is as long as its shelf, though books may hide a third of it.
+    return shorter >= 0.6 * longer && share_of_a >= 0.6 && share_of_b >= 0.4;
+}
+
+/// Arms, backs and headboards: narrow, above a seat or mattress and at its rim.
+bool is_rail_of(const LevelSlab& rail, const LevelSlab& seat) {
+    constexpr double max_rail_width = 0.36;
+    constexpr double max_rise = 0.6;
+    const double rise = rail.height - seat.height;
+    return seat.height <= max_low && rail.rectangle.width <= max_rail_width &&
+           rail.rectangle.length <= seat.rectangle.length + 0.7 && rise >= -0.1 &&
+           rise <= max_rise && seat.rectangle.area() > rail.rectangle.area();
+}
+
+bool touch(const FurnitureVoxels& all, const LevelSlab& a, const LevelSlab& b) {
+    for (const std::uint32_t i : a.voxels) {
+        if (b.rectangle.distance(all.voxels[i].place.head<2>()) <= 2.0 * beside) return true;
+    }
+    return false;
+}
+
+bool are_in_one_room(const FurnitureVoxels& all, const LevelSlab& a, const LevelSlab& b) {
+    const FurnitureVoxel& of_a = all.voxels[a.voxels.front()];
+    const FurnitureVoxel& of_b = all.voxels[b.voxels.front()];
+    return of_a.storey == of_b.storey && of_a.room == of_b.room;
+}
+
+/// Slabs that are parts of others, and slabs that are one piece.
+struct SlabGroups {
+    std::vector<std::size_t> group_of_slab;         ///< none for a part or a thing on another
+    std::vector<std::vector<std::size_t>> members;  ///< the largest first
+};
+
+SlabGroups group_slabs(const FurnitureVoxels& all, std::span<const LevelSlab> slabs) {
+    const std::size_t count = slabs.size();
+    DisjointSets sets(count);
+    std::vector<bool> is_part(count, false);
+    for (std::size_t i = 0; i < count; ++i) {
+        for (std::size_t j = i + 1; j < count; ++j) {
+            // The larger first.
+            const LevelSlab& large = slabs[i];
+            const LevelSlab& small = slabs[j];
+            if (!are_in_one_room(all, large, small)) continue;
+            const double reach = 0.5 * (std::hypot(large.rectangle.length, large.rectangle.width) +
+                                        std::hypot(small.rectangle.length, small.rectangle.width));
+            if ((large.rectangle.center - small.rectangle.center).norm() > reach + 0.2) continue;
+            const double of_small = share_within(all, small, large.rectangle, beside);
+            const double of_large = share_within(all, large, small.rectangle, beside);
+            const bool is_seat_below = use_of(small) == SlabUse::seat &&
+                                       use_of(large) == SlabUse::table &&
+                                       large.height - small.height > 0.12;
+            if (are_boards(small, large, of_small, of_large) && !is_seat_below) {
+                sets.join(static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j));
+            } else if (is_lying_over(of_small) && !is_seat_below) {
+                is_part[j] = true;
+            } else if (touch(all, small, large) &&
+                       (is_rail_of(small, large) || is_rail_of(large, small))) {
+                sets.join(static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j));
+            }
+        }
+    }
+    SlabGroups groups;
+    groups.group_of_slab.assign(count, none);
+    std::vector<std::size_t> group_of_set(count, none);
+    for (std::size_t i = 0; i < count; ++i) {
+        if (is_part[i]) continue;
+        std::size_t& group = group_of_set[sets.find(static_cast<std::uint32_t>(i))];
+        if (group == none) {
+            group = groups.members.size();
+            groups.members.emplace_back();
+        }
+        groups.group_of_slab[i] = group;
+        groups.members[group].push_back(i);
+    }
+    return groups;
+}
+
+/// Which group a voxel goes to, and whether it stands on one.
+class Claims {
+  public:
+    Claims(std::span<const LevelSlab> slabs, const SlabGroups& groups)
+        : slabs_(slabs), groups_(groups) {}
+
+    /// The cost at which a slab claims a voxel; infinite if it does not.
+    double cost(std::size_t number, const FurnitureVoxel& voxel) const {
+        constexpr double no = std::numeric_limits<double>::infinity();
+        constexpr double outside_weight = 4.0;
+        const LevelSlab& slab = slabs_[number];
+        const SlabUse use = use_of(slab);
+        const double outside = slab.rectangle.distance(voxel.place.head<2>());
+        if (outside > (use == SlabUse::seat ? beside_seat : beside)) return no;
+        const double above = voxel.height - slab.height;
+        const double away = outside_weight * std::max(outside, 0.0);
+        if (above <= 0.03 + voxel.noise) return std::max(-above, 0.0) + away;
+        if (use == SlabUse::seat && above <= back_height) return 0.5 * above + away;
+        if (use == SlabUse::low && above <= back_height) return above + away;
+        return no;
+    }
+
+    std::size_t group_of(const FurnitureVoxel& voxel, std::span<const std::size_t> groups) const {
+        std::size_t best = none;
+        double least = std::numeric_limits<double>::infinity();
+        for (const std::size_t group : groups) {
+            for (const std::size_t slab : groups_.members[group]) {
+                const double cost_here = cost(slab, voxel);
+                if (cost_here >= least) continue;
+                least = cost_here;
+                best = group;
+            }
+        }
+        return best;
+    }
+
+    bool stands_on(const FurnitureVoxel& voxel, std::span<const std::size_t> groups) const {
+        for (const std::size_t group : groups) {
+            for (const std::size_t slab : groups_.members[group]) {
+                if (voxel.height > slabs_[slab].height &&
+                    slabs_[slab].rectangle.distance(voxel.place.head<2>()) <= 0.0) {
+                    return true;
+                }
+            }
+        }
+        return false;
+    }
+
+  private:
+    std::span<const LevelSlab> slabs_;
+    const SlabGroups& groups_;
+};
+
+/// Components of core voxels; those that share a group's slabs are one.
+std::vector<std::vector<std::uint32_t>> find_clusters(const FurnitureVoxels& all,
+                                                      std::span<const LevelSlab> slabs,
+                                                      const SlabGroups& groups) {
+    std::vector<bool> is_core(all.voxels.size());
+    std::vector<std::uint32_t> core;
+    for (std::uint32_t i = 0; i < all.voxels.size(); ++i) {
+        is_core[i] = all.voxels[i].is_core;
+        if (is_core[i]) core.push_back(i);
+    }
+    std::vector<std::vector<std::uint32_t>> sets = connected_voxels(all, core, is_core);
+    std::vector<std::uint32_t> set_of_voxel(all.voxels.size(), 0);
+    for (std::uint32_t s = 0; s < sets.size(); ++s) {
+        for (const std::uint32_t i : sets[s])
+            set_of_voxel[i] = s;
+    }
+    DisjointSets joined(sets.size());
+    for (const std::vector<std::size_t>& members : groups.members) {
+        const std::uint32_t first = set_of_voxel[slabs[members.front()].voxels.front()];
+        for (const std::size_t slab : members) {
+            for (const std::uint32_t i : slabs[slab].voxels)
+                joined.join(first, set_of_voxel[i]);
+        }
+    }
+    std::vector<std::vector<std::uint32_t>> clusters(sets.size());
+    for (std::uint32_t s = 0; s < sets.size(); ++s) {
+        std::vector<std::uint32_t>& cluster = clusters[joined.find(s)];
+        cluster.insert(cluster.end(), sets[s].begin(), sets[s].end());
+    }
+    for (std::vector<std::uint32_t>& cluster : clusters)
+        std::sort(cluster.begin(), cluster.end());
+    return clusters;
+}
+
+std::vector<Eigen::Vector2d> places_of(const FurnitureVoxels& all,
+                                       std::span<const std::uint32_t> members) {
+    std::vector<Eigen::Vector2d> places;
+    for (const std::uint32_t i : members)
+        places.push_back(all.voxels[i].place.head<2>());
+    return places;
+}
+
+/// What no slab claims of a cluster: things on tops are dropped, crumbs go to the piece that they
+/// touch, the rest are things of their own.
+void draft_rest(const FurnitureVoxels& all, std::span<const std::uint32_t> cluster,
+                std::vector<bool>& is_rest, std::span<const std::size_t> groups,
+                const Claims& claims, std::vector<std::size_t>& group_of_voxel,
+                std::vector<PieceDraft>& drafts) {
+    for (std::vector<std::uint32_t>& rest : connected_voxels(all, cluster, is_rest)) {
+        std::size_t on_top = 0;
+        double low = std::numeric_limits<double>::infinity();
+        double high = 0.0;
+        for (const std::uint32_t i : rest) {
+            on_top += claims.stands_on(all.voxels[i], groups) ? 1U : 0U;
+            low = std::min(low, all.voxels[i].height);
+            high = std::max(high, all.voxels[i].height);
+        }
+        if (10 * on_top >= 7 * rest.size()) continue;
+        const PlanRectangle rectangle = smallest_rectangle(places_of(all, rest));
+        const bool is_crumb = rest.size() < 3 * min_voxels || high - low < 0.3 ||
+                              (rectangle.length < 0.25 && high < 0.8);
+        if (!is_crumb) {
+            drafts.push_back({std::move(rest), {}});
+            continue;
+        }
+        std::vector<std::size_t> votes;
+        for (const std::uint32_t i : rest) {
+            for (const std::uint32_t next : all.neighbors_of(i)) {
+                if (group_of_voxel[next] != none) votes.push_back(group_of_voxel[next]);
+            }
+        }
+        if (votes.empty()) continue;
+        std::sort(votes.begin(), votes.end());
+        const std::size_t group = votes[votes.size() / 2];
+        for (const std::uint32_t i : rest)
+            group_of_voxel[i] = group;
+    }
+}
+
+}  // namespace
+
+SlabUse use_of(const LevelSlab& slab) {
+    if (slab.height >= min_seat && slab.height <= max_seat &&
+        slab.rectangle.length <= max_seat_width) {
+        return SlabUse::seat;
+    }
+    if (slab.height <= max_low) return SlabUse::low;
+    return slab.height <= max_table ? SlabUse::table : SlabUse::high;
+}
+
+std::vector<PieceDraft> draft_pieces(const FurnitureVoxels& all, std::span<const LevelSlab> slabs) {
+    const SlabGroups groups = group_slabs(all, slabs);
+    const Claims claims(slabs, groups);
+    std::vector<std::size_t> group_of_voxel(all.voxels.size(), none);
+    for (std::size_t slab = 0; slab < slabs.size(); ++slab) {
+        for (const std::uint32_t i : slabs[slab].voxels)
+            group_of_voxel[i] = groups.group_of_slab[slab];
+    }
+    std::vector<PieceDraft> rests;
+    std::vector<bool> is_rest(all.voxels.size(), false);
+    for (const std::vector<std::uint32_t>& cluster : find_clusters(all, slabs, groups)) {
+        if (cluster.size() < min_voxels) continue;
+        std::vector<std::size_t> present;
+        for (const std::uint32_t i : cluster) {
+            if (group_of_voxel[i] != none) present.push_back(group_of_voxel[i]);
+        }
+        std::sort(present.begin(), present.end());
+        present.erase(std::unique(present.begin(), present.end()), present.end());
+        for (const std::uint32_t i : cluster) {
+            if (group_of_voxel[i] != none) continue;
+            group_of_voxel[i] = claims.group_of(all.voxels[i], present);
+            is_rest[i] = group_of_voxel[i] == none;
+        }
+        draft_rest(all, cluster, is_rest, present, claims, group_of_voxel, rests);
+    }
+    std::vector<PieceDraft> drafts(groups.members.size());
+    for (std::size_t group = 0; group < drafts.size(); ++group)
+        drafts[group].slabs = groups.members[group];
+    for (std::uint32_t i = 0; i < all.voxels.size(); ++i) {
+        if (group_of_voxel[i] != none) drafts[group_of_voxel[i]].voxels.push_back(i);
+    }
+    for (const PieceDraft& rest : rests) {
+        for (std::vector<std::uint32_t>& part : cut_row(all, rest.voxels))
+            drafts.push_back({std::move(part), {}});
+    }
+    return drafts;
+}
+
+}  // namespace roomscribe
