@@ -11,6 +11,7 @@
 #include "roomscribe/interpretation/furniture/level_slabs.hpp"
 #include "roomscribe/interpretation/furniture/piece_drafts.hpp"
 #include "roomscribe/interpretation/furniture/piece_kinds.hpp"
+#include "roomscribe/interpretation/furniture/tall_pieces.hpp"
 
 namespace roomscribe {
 namespace {
@@ -42,11 +43,16 @@ Furniture find_furniture(const ScanMap& map, const SurfaceSample& sample,
                          const Context& context) {
     Furniture result;
     result.component_of_voxel.assign(sample.cloud.size(), -1);
-    const FurnitureVoxels all = gather_furniture_voxels(sample, patches, surfaces, labels, context);
+    FurnitureVoxels all = gather_furniture_voxels(sample, patches, surfaces, labels, context);
+    std::vector<PieceDraft> drafts = draft_tall_pieces(all);
+    for (PieceDraft& draft : draft_hanging_pieces(all))
+        drafts.push_back(std::move(draft));
     const std::vector<LevelSlab> slabs = find_level_slabs(all, sample.voxel_size);
     const Eigen::Matrix3d axes = surfaces.room_from_map.linear();
     int count = 0;
-    for (const PieceDraft& draft : draft_pieces(all, slabs)) {
+    for (PieceDraft& draft : draft_pieces(all, slabs))
+        drafts.push_back(std::move(draft));
+    for (const PieceDraft& draft : drafts) {
         const PieceForm form = measure_form(all, slabs, draft, surfaces);
         const PieceVerdict verdict = judge_piece(form);
         if (!verdict.is_furniture) continue;

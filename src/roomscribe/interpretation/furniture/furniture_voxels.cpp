@@ -26,6 +26,8 @@ const double voxel_sin = std::sin(radians(30.0));
 /// m: what lies so near a wall's face besides its tolerance is its own relief (skirting boards are
 /// 16 to 35 mm) and ties together what stands along the wall.
 constexpr double wall_relief = 0.03;
+/// m2. Fronts, boards and seats have more; leaves and limbs less.
+constexpr double min_planar_area = 0.05;
 /// A surface that runs straight through a voxel has 8 neighbours beside it, its rim 5, its end 3.
 constexpr std::size_t min_core_neighbors = 4;
 /// Diagonal of a voxel and a bit, in its edges: neighbours are what touches, and one gap between.
@@ -168,6 +170,8 @@ FurnitureVoxels gather_furniture_voxels(const SurfaceSample& sample,
         const double rise = std::abs(axes.row(2).dot(normal));
         voxel.is_level = rise >= (patch ? plane_cos : voxel_cos);
         voxel.is_upright = rise <= (patch ? plane_sin : voxel_sin);
+        voxel.is_planar = patch != nullptr && patch->area >= min_planar_area;
+        voxel.looks_down = sample.normals_face_scanner && axes.row(2).dot(normal) < 0.0;
         voxel.is_core = !is_near_wall(surfaces, voxel, position, sample.tolerance);
         all.voxels.push_back(voxel);
     }

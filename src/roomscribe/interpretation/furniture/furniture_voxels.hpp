@@ -25,6 +25,8 @@ struct FurnitureVoxel {
     double noise = 0.0;       ///< m, across its surface
     bool is_level = false;    ///< part of a level surface
     bool is_upright = false;  ///< part of an upright one
+    bool is_planar = false;   ///< part of a patch that is more than a hand's breadth wide
+    bool looks_down = false;  ///< its normal looks down, and normals look to the scanner
     /// Hangs together with others in the room: neither a stray nor what is left of a wall's face.
     bool is_core = false;
 };

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <optional>
 #include <span>
 #include <utility>
 
@@ -45,6 +46,9 @@ LevelSlab make_slab(const FurnitureVoxels& all, std::vector<std::uint32_t> membe
     for (const std::uint32_t i : members)
         heights.push_back(all.voxels[i].height);
     slab.height = median(heights);
+    const auto down = std::count_if(members.begin(), members.end(),
+                                    [&](std::uint32_t i) { return all.voxels[i].looks_down; });
+    slab.looks_down = 2 * static_cast<std::size_t>(down) > members.size();
     slab.area = voxel_size * voxel_size * static_cast<double>(members.size());
     slab.voxels = std::move(members);
     return slab;
@@ -153,33 +157,46 @@ Cut find_cut(std::span<const Eigen::Vector2d> places, const PlanRectangle& recta
     return best;
 }
 
+/// Several desks side by side, whose tops are lower than a kitchen's worktop.
+std::optional<Cut> cut_desks(const LevelSlab& slab) {
+    constexpr double max_desk_height = 0.8;
+    const PlanRectangle& rectangle = slab.rectangle;
+    if (slab.height > max_desk_height || slab.height < 0.6) return std::nullopt;
+    if (rectangle.length <= max_table_length || rectangle.width > max_table_width) {
+        return std::nullopt;
+    }
+    const double count = std::ceil(rectangle.length / max_table_length);
+    const double start = rectangle.center.dot(rectangle.axis) - rectangle.length / 2.0;
+    return Cut{rectangle.axis, start + rectangle.length / count, 0.0};
+}
+
+std::optional<Cut> choose_cut(std::span<const Eigen::Vector2d> places, const LevelSlab& slab,
+                              double voxel_size) {
+    const PlanRectangle& rectangle = slab.rectangle;
+    if (rectangle.width <= max_table_width + 0.1) return cut_desks(slab);
+    // What fills less than this of its rectangle is an L or several at angles.
+    constexpr double min_fill = 0.85;
+    if (slab.area < min_fill * rectangle.area()) {
+        const Cut cut = find_cut(places, rectangle, 2.0 * voxel_size);
+        if (cut.area < 0.93 * rectangle.area()) return cut;
+    }
+    // Two rows of tables that face each other.
+    const bool faces = rectangle.width <= 2.0 * max_table_width && slab.height > 0.6;
+    if (!faces) return std::nullopt;
+    return Cut{rectangle.across(), rectangle.center.dot(rectangle.across()), 0.0};
+}
+
 /// Parts a slab that is no single rectangle, or larger than any table, and its parts.
 void part_slab(const FurnitureVoxels& all, LevelSlab slab, double voxel_size,
                std::vector<LevelSlab>& parts) {
-    const PlanRectangle& rectangle = slab.rectangle;
     const std::vector<Eigen::Vector2d> places = places_of(all, slab.voxels);
-    Cut cut;
-    // What fills less than three quarters of its rectangle is an L or several at angles.
-    constexpr double min_fill = 0.75;
-    bool parts_it = false;
-    if (slab.area < min_fill * rectangle.area() && rectangle.width > max_table_width) {
-        cut = find_cut(places, rectangle, 2.0 * voxel_size);
-        parts_it = cut.area < 0.8 * rectangle.area();
-    }
-    if (!parts_it && rectangle.width > max_table_width + 0.1 &&
-        rectangle.length <= 2.0 * max_table_width + 0.1) {
-        // Two tables that face each other: across the side that halves into tables' depths.
-        cut = {rectangle.across(), rectangle.center.dot(rectangle.across()), 0.0};
-        parts_it = true;
-    }
-    if (!parts_it) {
-        parts.push_back(std::move(slab));
-        return;
-    }
+    const std::optional<Cut> cut = choose_cut(places, slab, voxel_size);
     std::vector<std::uint32_t> low;
     std::vector<std::uint32_t> high;
-    for (std::size_t i = 0; i < places.size(); ++i)
-        (places[i].dot(cut.direction) < cut.at ? low : high).push_back(slab.voxels[i]);
+    if (cut) {
+        for (std::size_t i = 0; i < places.size(); ++i)
+            (places[i].dot(cut->direction) < cut->at ? low : high).push_back(slab.voxels[i]);
+    }
     if (low.empty() || high.empty()) {
         parts.push_back(std::move(slab));
         return;

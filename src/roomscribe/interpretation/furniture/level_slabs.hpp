@@ -13,8 +13,9 @@ namespace roomscribe {
 struct LevelSlab {
     std::vector<std::uint32_t> voxels;  ///< numbers in FurnitureVoxels, ascending
     PlanRectangle rectangle;
-    double height = 0.0;  ///< m above the floor, median
-    double area = 0.0;    ///< m2
+    double height = 0.0;      ///< m above the floor, median
+    double area = 0.0;        ///< m2
+    bool looks_down = false;  ///< it was seen from below
 };
 
 /// The level surfaces among the core voxels, of at least the size of a stool's seat, the largest

@@ -28,6 +28,8 @@ constexpr double beside = 0.06;
 constexpr double beside_seat = 0.16;
 /// m above a seat to the upper end of a back.
 constexpr double back_height = 0.75;
+/// m: wall units are 0.6 to 0.9 high.
+constexpr double max_unit_height = 1.0;
 /// m: boards of a shelf are no further apart (a folder needs 0.32, coats more but behind doors).
 constexpr double max_board_gap = 0.65;
 /// Fewer voxels tell no thing: 25 of 4 cm are a square of 20 cm.
@@ -69,6 +71,52 @@ bool are_in_one_room(const FurnitureVoxels& all, const LevelSlab& a, const Level
     return of_a.storey == of_b.storey && of_a.room == of_b.room;
 }
 
+/// Cushions, arms and backs of one sofa, mattress and pillows of one bed: low, side by side, they
+/// fill a rectangle of its size, which is closed below.
+class UpholsteryTest {
+  public:
+    explicit UpholsteryTest(const FurnitureVoxels& all) : all_(all) {}
+
+    bool operator()(const LevelSlab& a, const LevelSlab& b) const {
+        if (!may_be_part(a) || !may_be_part(b)) return false;
+        if (std::min(a.height, b.height) > max_low || !touch(all_, a, b)) return false;
+        std::vector<Eigen::Vector2d> places;
+        for (const LevelSlab* slab : {&a, &b}) {
+            for (const std::uint32_t i : slab->voxels)
+                places.push_back(all_.voxels[i].place.head<2>());
+        }
+        const PlanRectangle both = smallest_rectangle(places);
+        const bool is_sofa = both.length <= 2.6 && both.width <= 1.15;
+        const bool is_bed = both.length <= 2.4 && both.width <= 2.2;
+        const bool fills = a.area + b.area >= 0.7 * both.area();
+        return (is_sofa || is_bed) && fills && is_closed_below(both, a);
+    }
+
+  private:
+    /// A top at a table's height that is wider than a back or an arm is none.
+    static bool may_be_part(const LevelSlab& slab) {
+        return slab.height <= max_low || (slab.height <= 1.1 && slab.rectangle.width <= 0.36);
+    }
+
+    bool is_closed_below(const PlanRectangle& rectangle, const LevelSlab& some) const {
+        // Two sides were seen, five voxels high.
+        constexpr double low = 0.12;
+        constexpr double high = 0.32;
+        constexpr double min_share = 0.35;
+        std::size_t count = 0;
+        for (const FurnitureVoxel& voxel : all_.voxels) {
+            if (voxel.room != all_.voxels[some.voxels.front()].room) continue;
+            if (voxel.height < low || voxel.height > high) continue;
+            count += rectangle.distance(voxel.place.head<2>()) <= beside ? 1U : 0U;
+        }
+        const double cell = all_.reach / 2.0;
+        const double expected = (rectangle.length + rectangle.width) * (high - low) / (cell * cell);
+        return static_cast<double>(count) >= min_share * expected;
+    }
+
+    const FurnitureVoxels& all_;
+};
+
 /// Slabs that are parts of others, and slabs that are one piece.
 struct SlabGroups {
     std::vector<std::size_t> group_of_slab;         ///< none for a part or a thing on another
@@ -78,6 +126,7 @@ struct SlabGroups {
 SlabGroups group_slabs(const FurnitureVoxels& all, std::span<const LevelSlab> slabs) {
     const std::size_t count = slabs.size();
     DisjointSets sets(count);
+    const UpholsteryTest is_upholstery(all);
     std::vector<bool> is_part(count, false);
     for (std::size_t i = 0; i < count; ++i) {
         for (std::size_t j = i + 1; j < count; ++j) {
@@ -97,8 +146,9 @@ SlabGroups group_slabs(const FurnitureVoxels& all, std::span<const LevelSlab> sl
                 sets.join(static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j));
             } else if (is_lying_over(of_small) && !is_seat_below) {
                 is_part[j] = true;
-            } else if (touch(all, small, large) &&
-                       (is_rail_of(small, large) || is_rail_of(large, small))) {
+            } else if (is_upholstery(large, small) ||
+                       (touch(all, small, large) &&
+                        (is_rail_of(small, large) || is_rail_of(large, small)))) {
                 sets.join(static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j));
             }
         }
@@ -135,6 +185,11 @@ class Claims {
         if (outside > (use == SlabUse::seat ? beside_seat : beside)) return no;
         const double above = voxel.height - slab.height;
         const double away = outside_weight * std::max(outside, 0.0);
+        // The underside of what hangs on a wall.
+        if (use == SlabUse::high && slab.looks_down) {
+            const bool is_of_box = above >= -0.03 - voxel.noise && above <= max_unit_height;
+            return is_of_box ? std::max(above, 0.0) + away : no;
+        }
         if (above <= 0.03 + voxel.noise) return std::max(-above, 0.0) + away;
         if (use == SlabUse::seat && above <= back_height) return 0.5 * above + away;
         if (use == SlabUse::low && above <= back_height) return above + away;
@@ -159,7 +214,7 @@ class Claims {
         for (const std::size_t group : groups) {
             for (const std::size_t slab : groups_.members[group]) {
                 if (voxel.height > slabs_[slab].height &&
-                    slabs_[slab].rectangle.distance(voxel.place.head<2>()) <= 0.0) {
+                    slabs_[slab].rectangle.distance(voxel.place.head<2>()) <= -0.03) {
                     return true;
                 }
             }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "roomscribe/core/quantile.hpp"
 
@@ -12,6 +13,11 @@ namespace {
 
 /// m: pieces stand 16 to 35 mm off the wall for its skirting board, and voxels are 4 cm.
 constexpr double wall_reach = 0.12;
+/// m: no cabinet is deeper.
+constexpr double max_hidden_depth = 0.7;
+/// m before the wall: radiators are 5 to 12 cm thick and 3 to 6 off the wall, curtains hang as
+/// near.
+constexpr double max_thin_depth = 0.22;
 /// m above the floor: what stands shows something lower, unless other things hide it.
 constexpr double max_standing_bottom = 0.5;
 /// m above the floor: wall units begin at 1.35, shelves over a sofa or desk lower.
@@ -53,22 +59,46 @@ double closed_share(const FurnitureVoxels& all, const PieceDraft& draft,
     return std::max({share(0, along), share(along, along)});
 }
 
-bool is_at_wall(const RoomSurfaces& surfaces, const FurnitureVoxel& voxel,
-                const PlanRectangle& rectangle) {
+/// Share of the voxels of a box that lie on flat surface: of plants and people few do.
+constexpr double min_planar = 0.5;
+
+/// Distance of the front from the wall that the piece stands at, if it does.
+std::optional<double> depth_before_wall(const RoomSurfaces& surfaces, const FurnitureVoxel& voxel,
+                                        const PlanRectangle& rectangle) {
     const StoreyLayout& storey = surfaces.storeys[voxel.storey];
     const Eigen::Matrix3d axes = surfaces.room_from_map.linear();
+    std::optional<double> least;
     for (const WallFace& face : storey.faces) {
         if (face.room != voxel.room) continue;
         const Eigen::Vector2d normal = (axes * face.plane.normal).head<2>();
         const double to_center = normal.dot(rectangle.center) - face.plane.offset;
         const double half = 0.5 * (rectangle.length * std::abs(rectangle.axis.dot(normal)) +
                                    rectangle.width * std::abs(rectangle.across().dot(normal)));
-        if (to_center - half > wall_reach || to_center < -wall_reach) continue;
+        // Of a cabinet before a wall only the front may have been seen.
+        if (to_center - half > max_hidden_depth || to_center < -wall_reach) continue;
         const Eigen::Vector2d along = (axes * face.along).head<2>();
         const double at = along.dot(rectangle.center);
-        if (at >= face.start && at <= face.end) return true;
+        if (at < face.start || at > face.end) continue;
+        const double depth = to_center + half;
+        if (!least || depth < *least) least = depth;
     }
-    return false;
+    return least;
+}
+
+/// What stands close before a wall and is thin: no furniture.
+PieceVerdict judge_thin(const PieceForm& form) {
+    PieceVerdict verdict;
+    const double height = form.top - form.bottom;
+    if (form.top <= 1.1 && form.bottom <= 0.35 && height >= 0.2 && form.rectangle.length >= 0.3) {
+        verdict.kind = "radiator";
+        verdict.rule = "thin low thing before a wall";
+        verdict.confidence = 0.7;
+    } else if (form.top > 1.7 && form.bottom < 0.8) {
+        verdict.kind = "curtain";
+        verdict.rule = "thin thing before a wall from its upper end down";
+        verdict.confidence = 0.5;
+    }
+    return verdict;
 }
 
 struct Range {
@@ -84,12 +114,12 @@ PieceVerdict furniture(std::string_view kind, std::string_view rule, double conf
 
 PieceVerdict judge_hanging(const PieceForm& form) {
     const double height = form.top - form.bottom;
-    if (!form.is_at_wall || form.rectangle.length < 0.3) return {};
+    if (form.rectangle.length < 0.3) return {};
     // Kitchens' wall units are 0.30 to 0.37 deep; a board for books 0.15 to 0.3.
-    if (height >= 0.3 && Range{0.2, 0.5}.holds(form.rectangle.width))
+    if (height >= 0.3 && form.planar > min_planar && Range{0.2, 0.5}.holds(form.depth))
         return furniture("wall_unit", "box that hangs on a wall", 0.8);
-    if (height < 0.5 && form.level >= 0.3 && Range{0.12, 0.4}.holds(form.rectangle.width) &&
-        form.rectangle.length >= 0.5) {
+    if (form.is_at_wall && height < 0.5 && form.level >= 0.3 &&
+        Range{0.12, 0.4}.holds(form.rectangle.width) && form.rectangle.length >= 0.5) {
         return furniture("wall_shelf", "board that hangs on a wall", 0.7);
     }
     return {};
@@ -130,6 +160,8 @@ PieceVerdict judge_low(const PieceForm& form) {
 
 PieceVerdict judge_table(const PieceForm& form) {
     const PlanRectangle& size = form.rectangle;
+    // Window sills.
+    if (form.is_at_wall && form.depth < 0.3 && size.width < 0.28) return {};
     if (form.closed > 0.7 && size.width <= 0.8) {
         if (size.length > 1.8 && size.width >= 0.5 && Range{0.82, 0.98}.holds(form.seat))
             return furniture("base_unit", "row of boxes under a worktop", 0.85);
@@ -145,8 +177,10 @@ PieceVerdict judge_table(const PieceForm& form) {
 
 PieceVerdict judge_tall(const PieceForm& form) {
     const PlanRectangle& size = form.rectangle;
-    const double planar = form.level + form.upright;
-    if (planar < 0.5) return {};
+    if (form.planar < min_planar) return {};
+    // Columns and pipes.
+    if (form.reaches_ceiling && size.length < 0.6) return {};
+    if (size.length < 0.28) return {};
     if (size.width <= 0.45 && (form.num_slabs >= 2 || form.level > 0.15))
         return furniture("shelf", "boards above each other", 0.8);
     if (Range{0.5, 0.75}.holds(size.length) && size.width >= 0.45)
@@ -158,13 +192,13 @@ PieceVerdict judge_tall(const PieceForm& form) {
 /// Things without a slab whose top is that of a chair or low cabinet.
 PieceVerdict judge_plain(const PieceForm& form) {
     const PlanRectangle& size = form.rectangle;
-    const double planar = form.level + form.upright;
     if (form.top < 0.4 || size.length < 0.25) return {};
     if (size.length > 2.5 && size.width > 1.2) return {};
-    if (form.upright >= 0.6 && size.length >= 0.35) {
+    if (form.planar >= min_planar && form.upright >= 0.5 && size.length >= 0.35) {
         return furniture("cabinet", "upright sides of a box, top not seen", 0.6, "thing");
     }
-    if (Range{0.7, 1.2}.holds(form.top) && Range{0.35, 0.95}.holds(size.length) && planar > 0.35)
+    if (Range{0.7, 1.2}.holds(form.top) && Range{0.35, 0.95}.holds(size.length) &&
+        form.planar > 0.2)
         return furniture("chair", "size of a chair", 0.55, "thing");
     return {};
 }
@@ -181,12 +215,14 @@ PieceForm measure_form(const FurnitureVoxels& all, std::span<const LevelSlab> sl
     std::vector<Eigen::Vector2d> places;
     std::size_t num_level = 0;
     std::size_t num_upright = 0;
+    std::size_t num_planar = 0;
     for (const std::uint32_t i : draft.voxels) {
         const FurnitureVoxel& voxel = all.voxels[i];
         heights.push_back(voxel.height);
         places.push_back(voxel.place.head<2>());
         num_level += voxel.is_level ? 1U : 0U;
         num_upright += voxel.is_upright ? 1U : 0U;
+        num_planar += voxel.is_planar ? 1U : 0U;
     }
     const auto share = [&](std::size_t count) {
         return static_cast<double>(count) / static_cast<double>(draft.voxels.size());
@@ -197,7 +233,14 @@ PieceForm measure_form(const FurnitureVoxels& all, std::span<const LevelSlab> sl
     form.bottom = quantile(heights, 0.01);
     form.top = quantile(heights, 0.99);
     const FurnitureVoxel& some = all.voxels[draft.voxels.front()];
-    form.is_at_wall = is_at_wall(surfaces, some, form.rectangle);
+    form.planar = share(num_planar);
+    const std::optional<double> depth = depth_before_wall(surfaces, some, form.rectangle);
+    form.depth = depth.value_or(0.0);
+    form.is_at_wall = depth && *depth - form.rectangle.width <= wall_reach;
+    const PlanRoom& room =
+        surfaces.storeys[some.storey].plan.rooms[static_cast<std::size_t>(some.room)];
+    form.reaches_ceiling =
+        room.ceiling_height && form.top > *room.ceiling_height - room.floor_height - 0.2;
     if (!draft.slabs.empty()) {
         const LevelSlab& main = slabs[draft.slabs.front()];
         form.seat = main.height;
@@ -209,16 +252,15 @@ PieceForm measure_form(const FurnitureVoxels& all, std::span<const LevelSlab> sl
 PieceVerdict judge_piece(const PieceForm& form) {
     constexpr std::size_t min_voxels = 30;  // of 4 cm: 0.05 m2 of surface
     if (form.num_voxels < min_voxels) return {};
+    if (form.depth > 0.0 && form.depth <= max_thin_depth) return judge_thin(form);
     if (form.bottom >= min_hanging_bottom) return judge_hanging(form);
     if (form.bottom > max_standing_bottom && form.num_slabs == 0) return {};
     if (form.num_slabs == 0) return form.top >= 1.25 ? judge_tall(form) : judge_plain(form);
-    if (form.top >= 1.3 && form.seat > 1.2) return judge_tall(form);
+    if (form.top >= 1.3) return judge_tall(form);
     if (form.seat <= 0.58) {
-        if (form.top > 1.4 && form.num_slabs > 1) return judge_tall(form);
         const bool is_seat = form.seat >= 0.36 && form.rectangle.length <= 1.1;
         return is_seat ? judge_seat(form) : judge_low(form);
     }
-    if (form.num_slabs > 1 && form.top > 1.3) return judge_tall(form);
     return judge_table(form);
 }
 

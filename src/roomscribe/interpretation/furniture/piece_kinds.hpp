@@ -22,7 +22,10 @@ struct PieceForm {
     double upright = 0.0;  ///< share of the voxels that are upright
     double seat = 0.0;     ///< m above the floor, of its main slab; 0 for none
     double closed = 0.0;   ///< share of the sides below the main slab that upright surface closes
+    double planar = 0.0;   ///< share of the voxels that are part of a flat surface
     bool is_at_wall = false;  ///< its back is nearer than a hand's breadth to a wall
+    double depth = 0.0;       ///< m, from that wall to its front; 0 for no wall
+    bool reaches_ceiling = false;
     std::size_t num_voxels = 0;
     std::size_t num_slabs = 0;
 };

@@ -24,14 +24,14 @@ constexpr double min_front_step = 0.08;
 /// m: a row of less is one piece.
 constexpr double min_row = 0.7;
 
-/// Top and both faces of the row at places along it.
+/// Top and front of the row at places along it.
 struct Profile {
     double start = 0.0;
-    std::array<std::vector<double>, 3> lines;  ///< top, front, back; NaN where nothing was seen
+    std::array<std::vector<double>, 2> lines;  ///< top, front; NaN where nothing was seen
 };
 
 Profile measure_profile(const FurnitureVoxels& all, std::span<const std::uint32_t> members,
-                        const PlanRectangle& rectangle) {
+                        const PlanRectangle& rectangle, const Eigen::Vector2d& to_front) {
     Profile profile;
     profile.start = rectangle.center.dot(rectangle.axis) - rectangle.length / 2.0;
     const auto num_bins = static_cast<std::size_t>(rectangle.length / bin_width) + 1;
@@ -42,15 +42,14 @@ Profile measure_profile(const FurnitureVoxels& all, std::span<const std::uint32_
         const auto bin = static_cast<std::size_t>(
             std::clamp(along / bin_width, 0.0, static_cast<double>(num_bins - 1)));
         values[bin][0].push_back(voxel.height);
-        values[bin][1].push_back(voxel.place.head<2>().dot(rectangle.across()));
+        values[bin][1].push_back(voxel.place.head<2>().dot(to_front));
     }
     constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
     for (auto& [heights, depths] : values) {
         // Not the outermost voxels, which may be strays.
         const bool is_seen = heights.size() >= 3;
         profile.lines[0].push_back(is_seen ? quantile(heights, 0.95) : nothing);
-        profile.lines[1].push_back(is_seen ? quantile(depths, 0.92) : nothing);
-        profile.lines[2].push_back(is_seen ? quantile(depths, 0.08) : nothing);
+        profile.lines[1].push_back(is_seen ? quantile(depths, 0.95) : nothing);
     }
     return profile;
 }
@@ -77,16 +76,21 @@ std::vector<std::vector<std::uint32_t>> cut_row(const FurnitureVoxels& all,
     std::vector<std::vector<std::uint32_t>> parts;
     parts.emplace_back(members.begin(), members.end());
     if (rectangle.length < min_row) return parts;
-    const Profile profile = measure_profile(all, members, rectangle);
+    // The front is where most upright surface is: behind it little was seen.
+    const Eigen::Vector2d across = rectangle.across();
+    std::size_t in_front = 0;
+    for (const Eigen::Vector2d& place : places)
+        in_front += (place - rectangle.center).dot(across) > 0.0 ? 1U : 0U;
+    const bool is_front = 2 * in_front >= places.size();
+    const Profile profile =
+        measure_profile(all, members, rectangle, is_front ? across : Eigen::Vector2d(-across));
     const std::size_t num_bins = profile.lines[0].size();
     const auto window = static_cast<std::size_t>(std::lround(min_piece / bin_width));
     double greatest = 1.0;
     std::size_t cut = 0;
     for (std::size_t bin = window; bin + window <= num_bins; ++bin) {
-        const double step =
-            std::max({step_at(profile.lines[0], bin, window) / min_top_step,
-                      step_at(profile.lines[1], bin, window) / min_front_step,
-                      step_at(profile.lines[2], bin, window) / (2.0 * min_front_step)});
+        const double step = std::max({step_at(profile.lines[0], bin, window) / min_top_step,
+                                      step_at(profile.lines[1], bin, window) / min_front_step});
         if (step > greatest) {
             greatest = step;
             cut = bin;
