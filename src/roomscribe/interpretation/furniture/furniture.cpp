@@ -44,7 +44,7 @@ Furniture find_furniture(const ScanMap& map, const SurfaceSample& sample,
     Furniture result;
     result.component_of_voxel.assign(sample.cloud.size(), -1);
     FurnitureVoxels all = gather_furniture_voxels(sample, patches, surfaces, labels, context);
-    std::vector<PieceDraft> drafts = draft_tall_pieces(all);
+    std::vector<PieceDraft> drafts = draft_tall_pieces(all, surfaces);
     for (PieceDraft& draft : draft_hanging_pieces(all))
         drafts.push_back(std::move(draft));
     const std::vector<LevelSlab> slabs = find_level_slabs(all, sample.voxel_size);

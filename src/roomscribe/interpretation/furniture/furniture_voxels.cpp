@@ -170,6 +170,7 @@ FurnitureVoxels gather_furniture_voxels(const SurfaceSample& sample,
         const double rise = std::abs(axes.row(2).dot(normal));
         voxel.is_level = rise >= (patch ? plane_cos : voxel_cos);
         voxel.is_upright = rise <= (patch ? plane_sin : voxel_sin);
+        if (patch) voxel.patch = static_cast<std::uint32_t>(patch - patches.data());
         voxel.is_planar = patch != nullptr && patch->area >= min_planar_area;
         voxel.looks_down = sample.normals_face_scanner && axes.row(2).dot(normal) < 0.0;
         voxel.is_core = !is_near_wall(surfaces, voxel, position, sample.tolerance);

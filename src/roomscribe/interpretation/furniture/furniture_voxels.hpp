@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -15,18 +16,22 @@
 
 namespace roomscribe {
 
+/// In FurnitureVoxel: part of no patch.
+inline constexpr std::uint32_t no_patch = std::numeric_limits<std::uint32_t>::max();
+
 /// A voxel of the surface sample within a room that no floor, ceiling, wall or opening explains.
 struct FurnitureVoxel {
     std::uint32_t voxel = 0;  ///< of the sample
     std::uint32_t storey = 0;
-    std::int32_t room = 0;    ///< of the storey's plan
-    Eigen::Vector3d place;    ///< m, along the axes of the room frame, without its translation
-    double height = 0.0;      ///< m above the room's floor
-    double noise = 0.0;       ///< m, across its surface
-    bool is_level = false;    ///< part of a level surface
-    bool is_upright = false;  ///< part of an upright one
-    bool is_planar = false;   ///< part of a patch that is more than a hand's breadth wide
-    bool looks_down = false;  ///< its normal looks down, and normals look to the scanner
+    std::int32_t room = 0;  ///< of the storey's plan
+    Eigen::Vector3d place;  ///< m, along the axes of the room frame, without its translation
+    double height = 0.0;    ///< m above the room's floor
+    double noise = 0.0;     ///< m, across its surface
+    std::uint32_t patch = no_patch;  ///< planar patch that it is part of
+    bool is_level = false;           ///< part of a level surface
+    bool is_upright = false;         ///< part of an upright one
+    bool is_planar = false;          ///< part of a patch that is more than a hand's breadth wide
+    bool looks_down = false;         ///< its normal looks down, and normals look to the scanner
     /// Hangs together with others in the room: neither a stray nor what is left of a wall's face.
     bool is_core = false;
 };

@@ -8,6 +8,7 @@
 #include <span>
 #include <utility>
 
+#include "roomscribe/core/disjoint_sets.hpp"
 #include "roomscribe/core/quantile.hpp"
 
 namespace roomscribe {
@@ -38,6 +39,23 @@ std::vector<Eigen::Vector2d> places_of(const FurnitureVoxels& all,
     return places;
 }
 
+/// Of what was seen sparsely, squares of twice the voxel's edge count.
+double area_of(const FurnitureVoxels& all, std::span<const std::uint32_t> members,
+               double voxel_size) {
+    const double cell_size = 2.0 * voxel_size;
+    std::vector<std::pair<std::int32_t, std::int32_t>> cells;
+    for (const std::uint32_t i : members) {
+        const Eigen::Vector3d& place = all.voxels[i].place;
+        cells.emplace_back(static_cast<std::int32_t>(std::floor(place.x() / cell_size)),
+                           static_cast<std::int32_t>(std::floor(place.y() / cell_size)));
+    }
+    std::sort(cells.begin(), cells.end());
+    const auto count = std::unique(cells.begin(), cells.end()) - cells.begin();
+    // Cells on the rim are filled by half.
+    const double by_voxels = voxel_size * voxel_size * static_cast<double>(members.size());
+    return std::max(by_voxels, 0.75 * cell_size * cell_size * static_cast<double>(count));
+}
+
 LevelSlab make_slab(const FurnitureVoxels& all, std::vector<std::uint32_t> members,
                     double voxel_size) {
     LevelSlab slab;
@@ -49,7 +67,7 @@ LevelSlab make_slab(const FurnitureVoxels& all, std::vector<std::uint32_t> membe
     const auto down = std::count_if(members.begin(), members.end(),
                                     [&](std::uint32_t i) { return all.voxels[i].looks_down; });
     slab.looks_down = 2 * static_cast<std::size_t>(down) > members.size();
-    slab.area = voxel_size * voxel_size * static_cast<double>(members.size());
+    slab.area = area_of(all, members, voxel_size);
     slab.voxels = std::move(members);
     return slab;
 }
@@ -125,6 +143,55 @@ void join_shadowed(const FurnitureVoxels& all, std::vector<LevelSlab>& slabs, do
             j = i + 1;
         }
     }
+}
+
+/// Joins crumbs of a top that was seen at a grazing angle, in rows a hand's breadth apart: at one
+/// height and no further from each other. What is no crumb stays as it is.
+std::vector<std::vector<std::uint32_t>> join_sparse(const FurnitureVoxels& all,
+                                                    std::vector<std::vector<std::uint32_t>> pieces,
+                                                    double voxel_size) {
+    constexpr double max_crumb_area = 0.1;  // m2
+    constexpr double max_gap = 0.2;         // m
+    constexpr double min_table = 0.6;       // m above the floor; seats are too small for gaps
+    std::vector<std::uint32_t> crumbs;
+    for (std::uint32_t i = 0; i < pieces.size(); ++i) {
+        const double area = voxel_size * voxel_size * static_cast<double>(pieces[i].size());
+        const bool is_high = all.voxels[pieces[i].front()].height >= min_table;
+        if (area < max_crumb_area && is_high && pieces[i].size() > 1) crumbs.push_back(i);
+    }
+    DisjointSets sets(pieces.size());
+    const auto are_near = [&](const std::vector<std::uint32_t>& a,
+                              const std::vector<std::uint32_t>& b) {
+        for (const std::uint32_t i : a) {
+            const FurnitureVoxel& of_a = all.voxels[i];
+            for (const std::uint32_t j : b) {
+                const FurnitureVoxel& of_b = all.voxels[j];
+                if (of_a.room != of_b.room || of_a.storey != of_b.storey) return false;
+                if (std::abs(of_a.height - of_b.height) > level_step + of_a.noise) continue;
+                const Eigen::Vector2d gap = (of_a.place - of_b.place).head<2>();
+                if (gap.squaredNorm() <= max_gap * max_gap) return true;
+            }
+        }
+        return false;
+    };
+    for (std::size_t i = 0; i < crumbs.size(); ++i) {
+        for (std::size_t j = i + 1; j < crumbs.size(); ++j) {
+            const Eigen::Vector3d between = all.voxels[pieces[crumbs[i]].front()].place -
+                                            all.voxels[pieces[crumbs[j]].front()].place;
+            if (between.head<2>().norm() > 2.0 * max_table_length) continue;
+            if (std::abs(between.z()) > 0.1) continue;
+            if (are_near(pieces[crumbs[i]], pieces[crumbs[j]])) sets.join(crumbs[i], crumbs[j]);
+        }
+    }
+    for (const std::uint32_t i : crumbs) {
+        const std::uint32_t kept = sets.find(i);
+        if (kept == i) continue;
+        pieces[kept].insert(pieces[kept].end(), pieces[i].begin(), pieces[i].end());
+        pieces[i].clear();
+    }
+    for (std::vector<std::uint32_t>& piece : pieces)
+        std::sort(piece.begin(), piece.end());
+    return pieces;
 }
 
 /// Best cut of a set of places in two rectangles that hold them more tightly.
@@ -211,7 +278,7 @@ std::vector<LevelSlab> find_level_slabs(const FurnitureVoxels& all, double voxel
     // Pieces that a shadow parts may be small; what is left alone and small is dropped below.
     constexpr double min_piece_area = 0.02;
     std::vector<LevelSlab> slabs;
-    for (std::vector<std::uint32_t>& members : grow_slabs(all)) {
+    for (std::vector<std::uint32_t>& members : join_sparse(all, grow_slabs(all), voxel_size)) {
         const double area = voxel_size * voxel_size * static_cast<double>(members.size());
         if (area < min_piece_area) continue;
         part_slab(all, make_slab(all, std::move(members), voxel_size), voxel_size, slabs);

@@ -65,6 +65,24 @@ bool touch(const FurnitureVoxels& all, const LevelSlab& a, const LevelSlab& b) {
     return false;
 }
 
+/// The inside of a drawer that stands open: partly under a top, with nothing below the part that
+/// is not.
+bool is_drawer_of(const FurnitureVoxels& all, const LevelSlab& slab, const LevelSlab& top,
+                  double share) {
+    if (use_of(top) != SlabUse::table || slab.height > top.height || share < 0.25) return false;
+    constexpr double low = 0.25;
+    constexpr std::size_t few = 8;
+    std::size_t below = 0;
+    for (const FurnitureVoxel& voxel : all.voxels) {
+        if (!voxel.is_core || voxel.height > low) continue;
+        const Eigen::Vector2d place = voxel.place.head<2>();
+        below += slab.rectangle.distance(place) <= beside && top.rectangle.distance(place) > beside
+                     ? 1U
+                     : 0U;
+    }
+    return below < few;
+}
+
 bool are_in_one_room(const FurnitureVoxels& all, const LevelSlab& a, const LevelSlab& b) {
     const FurnitureVoxel& of_a = all.voxels[a.voxels.front()];
     const FurnitureVoxel& of_b = all.voxels[b.voxels.front()];
@@ -90,6 +108,27 @@ class UpholsteryTest {
         const bool is_bed = both.length <= 2.4 && both.width <= 2.2;
         const bool fills = a.area + b.area >= 0.7 * both.area();
         return (is_sofa || is_bed) && fills && is_closed_below(both, a);
+    }
+
+    /// Whether all of a cluster is one such piece.
+    bool is_one_piece(std::span<const std::uint32_t> cluster, std::span<const LevelSlab> slabs,
+                      const std::vector<std::size_t>& slab_of_voxel) const {
+        std::vector<Eigen::Vector2d> places;
+        double top = 0.0;
+        const LevelSlab* largest = nullptr;
+        for (const std::uint32_t i : cluster) {
+            places.push_back(all_.voxels[i].place.head<2>());
+            top = std::max(top, all_.voxels[i].height);
+            if (slab_of_voxel[i] == none) continue;
+            const LevelSlab& slab = slabs[slab_of_voxel[i]];
+            if (!may_be_part(slab)) return false;
+            if (!largest || slab.area > largest->area) largest = &slab;
+        }
+        if (!largest || top > 1.25 || largest->height > max_low) return false;
+        const PlanRectangle whole = smallest_rectangle(places);
+        const bool is_sofa = whole.length <= 2.6 && whole.width <= 1.2 && whole.width >= 0.6;
+        const bool is_bed = whole.length <= 2.5 && whole.length >= 1.8 && whole.width <= 2.3;
+        return (is_sofa || is_bed) && is_closed_below(whole, *largest);
     }
 
   private:
@@ -144,7 +183,8 @@ SlabGroups group_slabs(const FurnitureVoxels& all, std::span<const LevelSlab> sl
                                        large.height - small.height > 0.12;
             if (are_boards(small, large, of_small, of_large) && !is_seat_below) {
                 sets.join(static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j));
-            } else if (is_lying_over(of_small) && !is_seat_below) {
+            } else if ((is_lying_over(of_small) && !is_seat_below) ||
+                       is_drawer_of(all, small, large, of_small)) {
                 is_part[j] = true;
             } else if (is_upholstery(large, small) ||
                        (touch(all, small, large) &&
@@ -210,6 +250,21 @@ class Claims {
         return best;
     }
 
+    /// Near a group that is no lower than `top`.
+    bool is_beside(const FurnitureVoxel& voxel, double top,
+                   std::span<const std::size_t> groups) const {
+        constexpr double near = 0.15;
+        for (const std::size_t group : groups) {
+            for (const std::size_t slab : groups_.members[group]) {
+                if (slabs_[slab].height + 0.1 >= top &&
+                    slabs_[slab].rectangle.distance(voxel.place.head<2>()) <= near) {
+                    return true;
+                }
+            }
+        }
+        return false;
+    }
+
     bool stands_on(const FurnitureVoxel& voxel, std::span<const std::size_t> groups) const {
         for (const std::size_t group : groups) {
             for (const std::size_t slab : groups_.members[group]) {
@@ -269,6 +324,18 @@ std::vector<Eigen::Vector2d> places_of(const FurnitureVoxels& all,
     return places;
 }
 
+/// Sides, open doors and drawers' fronts: thin, beside a piece and no taller.
+bool is_panel_of(const FurnitureVoxels& all, std::span<const std::uint32_t> rest,
+                 const PlanRectangle& rectangle, double top, std::span<const std::size_t> groups,
+                 const Claims& claims) {
+    constexpr double max_thickness = 0.2;
+    if (rectangle.width > max_thickness) return false;
+    std::size_t near = 0;
+    for (const std::uint32_t i : rest)
+        near += claims.is_beside(all.voxels[i], top, groups) ? 1U : 0U;
+    return 10 * near >= 7 * rest.size();
+}
+
 /// What no slab claims of a cluster: things on tops are dropped, crumbs go to the piece that they
 /// touch, the rest are things of their own.
 void draft_rest(const FurnitureVoxels& all, std::span<const std::uint32_t> cluster,
@@ -287,7 +354,8 @@ void draft_rest(const FurnitureVoxels& all, std::span<const std::uint32_t> clust
         if (10 * on_top >= 7 * rest.size()) continue;
         const PlanRectangle rectangle = smallest_rectangle(places_of(all, rest));
         const bool is_crumb = rest.size() < 3 * min_voxels || high - low < 0.3 ||
-                              (rectangle.length < 0.25 && high < 0.8);
+                              (rectangle.length < 0.25 && high < 0.8) ||
+                              is_panel_of(all, rest, rectangle, high, groups, claims);
         if (!is_crumb) {
             drafts.push_back({std::move(rest), {}});
             continue;
@@ -321,14 +389,31 @@ std::vector<PieceDraft> draft_pieces(const FurnitureVoxels& all, std::span<const
     const SlabGroups groups = group_slabs(all, slabs);
     const Claims claims(slabs, groups);
     std::vector<std::size_t> group_of_voxel(all.voxels.size(), none);
+    std::vector<std::size_t> slab_of_voxel(all.voxels.size(), none);
     for (std::size_t slab = 0; slab < slabs.size(); ++slab) {
-        for (const std::uint32_t i : slabs[slab].voxels)
+        for (const std::uint32_t i : slabs[slab].voxels) {
             group_of_voxel[i] = groups.group_of_slab[slab];
+            slab_of_voxel[i] = slab;
+        }
     }
+    const UpholsteryTest is_upholstery(all);
+    std::vector<PieceDraft> whole;
     std::vector<PieceDraft> rests;
     std::vector<bool> is_rest(all.voxels.size(), false);
     for (const std::vector<std::uint32_t>& cluster : find_clusters(all, slabs, groups)) {
         if (cluster.size() < min_voxels) continue;
+        if (is_upholstery.is_one_piece(cluster, slabs, slab_of_voxel)) {
+            whole.push_back({cluster, {}});
+            for (const std::uint32_t i : cluster) {
+                const std::size_t slab = slab_of_voxel[i];
+                std::vector<std::size_t>& known = whole.back().slabs;
+                if (slab != none && std::find(known.begin(), known.end(), slab) == known.end())
+                    known.push_back(slab);
+                group_of_voxel[i] = none;
+            }
+            std::sort(whole.back().slabs.begin(), whole.back().slabs.end());
+            continue;
+        }
         std::vector<std::size_t> present;
         for (const std::uint32_t i : cluster) {
             if (group_of_voxel[i] != none) present.push_back(group_of_voxel[i]);
@@ -348,6 +433,7 @@ std::vector<PieceDraft> draft_pieces(const FurnitureVoxels& all, std::span<const
     for (std::uint32_t i = 0; i < all.voxels.size(); ++i) {
         if (group_of_voxel[i] != none) drafts[group_of_voxel[i]].voxels.push_back(i);
     }
+    std::move(whole.begin(), whole.end(), std::back_inserter(drafts));
     for (const PieceDraft& rest : rests) {
         for (std::vector<std::uint32_t>& part : cut_row(all, rest.voxels))
             drafts.push_back({std::move(part), {}});

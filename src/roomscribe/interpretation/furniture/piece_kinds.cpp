@@ -177,7 +177,10 @@ PieceVerdict judge_table(const PieceForm& form) {
 
 PieceVerdict judge_tall(const PieceForm& form) {
     const PlanRectangle& size = form.rectangle;
-    if (form.planar < min_planar) return {};
+    if (form.planar < min_planar || form.face < 0.2) return {};
+    // A leaf that stands open is thin; of a wardrobe's front the wall is as far behind as it is
+    // deep.
+    if (size.width < 0.15 && !Range{0.25, 0.75}.holds(form.depth)) return {};
     // Columns and pipes.
     if (form.reaches_ceiling && size.length < 0.6) return {};
     if (size.length < 0.28) return {};
@@ -194,7 +197,8 @@ PieceVerdict judge_plain(const PieceForm& form) {
     const PlanRectangle& size = form.rectangle;
     if (form.top < 0.4 || size.length < 0.25) return {};
     if (size.length > 2.5 && size.width > 1.2) return {};
-    if (form.planar >= min_planar && form.upright >= 0.5 && size.length >= 0.35) {
+    if (form.planar >= min_planar && form.upright >= 0.5 && size.length >= 0.35 &&
+        form.face >= 0.1) {
         return furniture("cabinet", "upright sides of a box, top not seen", 0.6, "thing");
     }
     if (Range{0.7, 1.2}.holds(form.top) && Range{0.35, 0.95}.holds(size.length) &&
@@ -216,6 +220,7 @@ PieceForm measure_form(const FurnitureVoxels& all, std::span<const LevelSlab> sl
     std::size_t num_level = 0;
     std::size_t num_upright = 0;
     std::size_t num_planar = 0;
+    std::vector<std::uint32_t> of_patches;
     for (const std::uint32_t i : draft.voxels) {
         const FurnitureVoxel& voxel = all.voxels[i];
         heights.push_back(voxel.height);
@@ -223,6 +228,7 @@ PieceForm measure_form(const FurnitureVoxels& all, std::span<const LevelSlab> sl
         num_level += voxel.is_level ? 1U : 0U;
         num_upright += voxel.is_upright ? 1U : 0U;
         num_planar += voxel.is_planar ? 1U : 0U;
+        if (voxel.patch != no_patch) of_patches.push_back(voxel.patch);
     }
     const auto share = [&](std::size_t count) {
         return static_cast<double>(count) / static_cast<double>(draft.voxels.size());
@@ -234,6 +240,14 @@ PieceForm measure_form(const FurnitureVoxels& all, std::span<const LevelSlab> sl
     form.top = quantile(heights, 0.99);
     const FurnitureVoxel& some = all.voxels[draft.voxels.front()];
     form.planar = share(num_planar);
+    std::sort(of_patches.begin(), of_patches.end());
+    std::size_t largest = 0;
+    for (std::size_t begin = 0, end = 0; begin < of_patches.size(); begin = end) {
+        while (end < of_patches.size() && of_patches[end] == of_patches[begin])
+            ++end;
+        largest = std::max(largest, end - begin);
+    }
+    form.face = 0.25 * all.reach * all.reach * static_cast<double>(largest);
     const std::optional<double> depth = depth_before_wall(surfaces, some, form.rectangle);
     form.depth = depth.value_or(0.0);
     form.is_at_wall = depth && *depth - form.rectangle.width <= wall_reach;

@@ -79,30 +79,141 @@ PlanRectangle rectangle_around(const FurnitureVoxels& all, std::span<const std::
     return smallest_rectangle(places);
 }
 
+bool are_together(const FurnitureVoxel& a, const FurnitureVoxel& b) {
+    return a.storey == b.storey && a.room == b.room;
+}
+
+/// Sides and fronts of one tall thing.
+struct TallBox {
+    std::vector<std::uint32_t> voxels;
+    PlanRectangle rectangle;
+    double top = 0.0;
+};
+
+TallBox make_box(const FurnitureVoxels& all, std::vector<std::uint32_t> members) {
+    TallBox box;
+    box.rectangle = rectangle_around(all, members);
+    for (const std::uint32_t i : members)
+        box.top = std::max(box.top, all.voxels[i].height);
+    box.voxels = std::move(members);
+    return box;
+}
+
+/// Whether what lies between two boxes fills the height as boards do: the gap between a kitchen's
+/// worktop and wall units is wider (0.45 m and more) than that between boards.
+bool is_bridged(const FurnitureVoxels& all, const TallBox& a, const TallBox& b,
+                const PlanRectangle& both) {
+    constexpr double max_board_gap = 0.44;
+    std::vector<double> heights;
+    for (const FurnitureVoxel& voxel : all.voxels) {
+        if (!voxel.is_core || !are_together(voxel, all.voxels[a.voxels.front()])) continue;
+        const Eigen::Vector2d place = voxel.place.head<2>();
+        if (both.distance(place) > 0.0 || a.rectangle.distance(place) <= 0.0 ||
+            b.rectangle.distance(place) <= 0.0) {
+            continue;
+        }
+        heights.push_back(voxel.height);
+    }
+    if (heights.size() < min_voxels) return false;
+    std::sort(heights.begin(), heights.end());
+    double last = 0.1;
+    for (const double height : heights) {
+        if (height - last > max_board_gap) return false;
+        last = std::max(last, height);
+    }
+    return std::min(a.top, b.top) - last <= max_board_gap;
+}
+
+/// Sides of one shelf, or a front whose middle something hides: in line, of one height, with
+/// boards between; or one within the other's rectangle.
+void join_boxes(const FurnitureVoxels& all, std::vector<TallBox>& boxes) {
+    constexpr double max_length = 2.6;    // m: a wardrobe of four doors
+    constexpr double max_depth = 0.8;     // m
+    constexpr double same_height = 0.12;  // m
+    for (std::size_t i = 0; i < boxes.size(); ++i) {
+        for (std::size_t j = i + 1; j < boxes.size();) {
+            const TallBox& a = boxes[i];
+            const TallBox& b = boxes[j];
+            bool joins = are_together(all.voxels[a.voxels.front()], all.voxels[b.voxels.front()]);
+            if (joins) {
+                std::vector<std::uint32_t> members = a.voxels;
+                members.insert(members.end(), b.voxels.begin(), b.voxels.end());
+                std::sort(members.begin(), members.end());
+                TallBox both = make_box(all, std::move(members));
+                const double larger = std::max(a.rectangle.area(), b.rectangle.area());
+                const bool is_within = both.rectangle.area() <= 1.1 * larger;
+                const bool is_row =
+                    std::abs(a.top - b.top) <= same_height && both.rectangle.length <= max_length &&
+                    both.rectangle.width <= max_depth && is_bridged(all, a, b, both.rectangle);
+                joins = is_within || is_row;
+                if (joins) boxes[i] = std::move(both);
+            }
+            if (!joins) {
+                ++j;
+                continue;
+            }
+            boxes.erase(boxes.begin() + static_cast<std::ptrdiff_t>(j));
+            j = i + 1;
+        }
+    }
+}
+
+/// The rectangle with what lies between it and the wall that it stands along, where it is no
+/// deeper then than a wardrobe.
+PlanRectangle extended_to_wall(PlanRectangle rectangle, const RoomSurfaces& surfaces,
+                               const FurnitureVoxel& some) {
+    constexpr double max_depth = 0.75;
+    constexpr double parallel = 0.98;
+    const Eigen::Matrix3d axes = surfaces.room_from_map.linear();
+    for (const WallFace& face : surfaces.storeys[some.storey].faces) {
+        if (face.room != some.room) continue;
+        const Eigen::Vector2d normal = (axes * face.plane.normal).head<2>();
+        const double at = (axes * face.along).head<2>().dot(rectangle.center);
+        if (at < face.start || at > face.end) continue;
+        const bool lies_along = std::abs(rectangle.across().dot(normal)) > parallel;
+        if (!lies_along) continue;
+        const double front =
+            normal.dot(rectangle.center) + 0.5 * rectangle.width - face.plane.offset;
+        if (front <= rectangle.width || front > max_depth) continue;
+        rectangle.center -= 0.5 * (front - rectangle.width) * normal;
+        rectangle.width = front;
+        if (rectangle.width > rectangle.length) {
+            rectangle.axis = rectangle.across();
+            std::swap(rectangle.length, rectangle.width);
+        }
+        return rectangle;
+    }
+    return rectangle;
+}
+
 }  // namespace
 
-std::vector<PieceDraft> draft_tall_pieces(FurnitureVoxels& all) {
+std::vector<PieceDraft> draft_tall_pieces(FurnitureVoxels& all, const RoomSurfaces& surfaces) {
     const std::vector<std::uint32_t> tall = find_tall_voxels(all);
     std::vector<bool> is_tall(all.voxels.size(), false);
     for (const std::uint32_t i : tall)
         is_tall[i] = true;
-    std::vector<PieceDraft> drafts;
+    std::vector<TallBox> boxes;
     for (const std::vector<std::uint32_t>& sides : connected_voxels(all, tall, is_tall)) {
         if (sides.size() < min_voxels) continue;
-        for (const std::vector<std::uint32_t>& part : cut_row(all, sides)) {
-            const PlanRectangle rectangle = rectangle_around(all, part);
-            const FurnitureVoxel& some = all.voxels[part.front()];
-            PieceDraft draft;
-            for (std::uint32_t i = 0; i < all.voxels.size(); ++i) {
-                FurnitureVoxel& voxel = all.voxels[i];
-                if (!voxel.is_core || voxel.room != some.room || voxel.storey != some.storey)
-                    continue;
-                if (rectangle.distance(voxel.place.head<2>()) > beside) continue;
-                draft.voxels.push_back(i);
-                voxel.is_core = false;
-            }
-            if (!draft.voxels.empty()) drafts.push_back(std::move(draft));
+        for (std::vector<std::uint32_t>& part : cut_row(all, sides))
+            boxes.push_back(make_box(all, std::move(part)));
+    }
+    join_boxes(all, boxes);
+    std::vector<PieceDraft> drafts;
+    for (const TallBox& box : boxes) {
+        const FurnitureVoxel& some = all.voxels[box.voxels.front()];
+        const PlanRectangle rectangle = extended_to_wall(box.rectangle, surfaces, some);
+        PieceDraft draft;
+        for (std::uint32_t i = 0; i < all.voxels.size(); ++i) {
+            FurnitureVoxel& voxel = all.voxels[i];
+            if (!voxel.is_core || !are_together(voxel, some)) continue;
+            if (voxel.height > box.top + beside) continue;
+            if (rectangle.distance(voxel.place.head<2>()) > beside) continue;
+            draft.voxels.push_back(i);
+            voxel.is_core = false;
         }
+        if (!draft.voxels.empty()) drafts.push_back(std::move(draft));
     }
     return drafts;
 }

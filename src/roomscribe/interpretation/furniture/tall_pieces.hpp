@@ -11,7 +11,7 @@ namespace roomscribe {
 /// What stands taller than any table or chair, from near the floor up without a gap: wardrobes,
 /// shelves, fridges, but also columns and people. All that lies within the rectangle around such
 /// sides and fronts belongs to it; rows are cut (cut_row). The voxels are core voxels no longer.
-std::vector<PieceDraft> draft_tall_pieces(FurnitureVoxels& all);
+std::vector<PieceDraft> draft_tall_pieces(FurnitureVoxels& all, const RoomSurfaces& surfaces);
 
 /// What hangs above a table's height and hangs together with nothing lower: wall units, shelves on
 /// walls, but also lamps. The voxels are core voxels no longer.
