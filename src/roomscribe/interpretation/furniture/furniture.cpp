@@ -2,7 +2,9 @@
 #include "roomscribe/interpretation/furniture/furniture.hpp"
 
 #include <algorithm>
+#include <array>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
@@ -10,6 +12,7 @@
 #include "roomscribe/interpretation/furniture/furniture_voxels.hpp"
 #include "roomscribe/interpretation/furniture/level_slabs.hpp"
 #include "roomscribe/interpretation/furniture/piece_drafts.hpp"
+#include "roomscribe/interpretation/furniture/piece_faces.hpp"
 #include "roomscribe/interpretation/furniture/piece_kinds.hpp"
 #include "roomscribe/interpretation/furniture/tall_pieces.hpp"
 
@@ -35,6 +38,165 @@ OrientedBox box_of(const FurnitureVoxels& all, const PieceDraft& draft, const Pi
     return box;
 }
 
+/// Makes the components of pieces and their faces.
+class FurnitureBuilder {
+  public:
+    FurnitureBuilder(const FurnitureVoxels& all, std::span<const LevelSlab> slabs,
+                     const RoomSurfaces& surfaces, std::span<const PlanarPatch> patches,
+                     double voxel_size, std::int32_t first_instance)
+        : all_(all),
+          slabs_(slabs),
+          surfaces_(surfaces),
+          patches_(patches),
+          axes_(surfaces.room_from_map.linear()),
+          voxel_size_(voxel_size),
+          next_instance_(first_instance) {}
+
+    void add(const PieceDraft& draft, Furniture& result) {
+        const PieceForm form = measure_form(all_, slabs_, draft, surfaces_);
+        const PieceVerdict verdict = judge_piece(form);
+        if (!verdict.is_furniture) {
+            if (!verdict.kind.empty()) add_thing(draft, form, verdict, result);
+            return;
+        }
+        const std::size_t number = result.components.size();
+        Component piece = make_component(draft, verdict, Label::furniture);
+        piece.box = box_of(all_, draft, form, axes_, voxel_size_);
+        assign(draft, number, result);
+        const std::string id = piece.id;
+        result.components.push_back(std::move(piece));
+        add_top(draft, verdict, id, result);
+        const Eigen::Vector3d off_wall(form.off_wall.x(), form.off_wall.y(), 0.0);
+        auto side =
+            find_front_side(all_, draft, form, patches_, axes_, axes_.transpose() * off_wall);
+        if (!side) return;
+        side->piece = number;
+        sides_.push_back(std::move(*side));
+    }
+
+    void add_fronts(const PointCloud& map, const SurfaceSample& sample, Furniture& result) {
+        const Eigen::Vector3d up = axes_.row(2).transpose();
+        for (const FrontPanel& panel : find_front_panels(map, sample, sides_, up)) {
+            const FrontSide& side = sides_[panel.side];
+            const Component& piece = result.components[side.piece];
+            Component face = make_face(piece.id, panel.kind, piece);
+            const auto corner = [&](double along, double above) -> Eigen::Vector3d {
+                return side.plane.offset * side.plane.normal + along * side.along + above * up;
+            };
+            const WallRectangle& extent = panel.extent;
+            face.polygon = {corner(extent.start, extent.bottom), corner(extent.end, extent.bottom),
+                            corner(extent.end, extent.top), corner(extent.start, extent.top)};
+            face.evidence.rule = "upright front of a closed piece";
+            face.evidence.points = panel.points;
+            face.evidence.rms = panel.rms;
+            if (panel.may_be_several) {
+                face.verdict = Verdict::doubtful;
+                face.evidence.alternative = "several fronts";
+            }
+            MountingFace mounting;
+            mounting.plane = side.plane;
+            mounting.along = side.along;
+            mounting.extent = extent;
+            mounting.rms = panel.rms;
+            mounting.may_be_several = panel.may_be_several;
+            mounting.component = result.components.size();
+            result.fronts.push_back(mounting);
+            result.components.push_back(std::move(face));
+        }
+    }
+
+  private:
+    Component make_component(const PieceDraft& draft, const PieceVerdict& verdict, Label label) {
+        const FurnitureVoxel& some = all_.voxels[draft.voxels.front()];
+        Component component;
+        component.label = label;
+        component.id = label == Label::furniture ? fmt::format("furniture-{}", ++num_furniture_)
+                                                 : fmt::format("thing-{}", ++num_things_);
+        component.kind = verdict.kind;
+        component.instance = next_instance_++;
+        component.parent =
+            surfaces_.storeys[some.storey].room_ids[static_cast<std::size_t>(some.room)];
+        component.confidence = verdict.confidence;
+        component.verdict = verdict.alternative.empty() ? Verdict::accepted : Verdict::doubtful;
+        component.evidence.rule = verdict.rule;
+        component.evidence.alternative = verdict.alternative;
+        return component;
+    }
+
+    Component make_face(const std::string& parent, std::string_view kind, const Component& piece) {
+        Component face;
+        face.label = Label::furniture;
+        face.id = fmt::format("furniture-{}", ++num_furniture_);
+        face.kind = kind;
+        face.instance = next_instance_++;
+        face.parent = parent;
+        face.confidence = piece.confidence;
+        face.verdict = piece.verdict;
+        face.evidence.alternative = piece.evidence.alternative;
+        return face;
+    }
+
+    void assign(const PieceDraft& draft, std::size_t number, Furniture& result) const {
+        for (const std::uint32_t i : draft.voxels)
+            result.component_of_voxel[all_.voxels[i].voxel] = static_cast<std::int32_t>(number);
+    }
+
+    void add_thing(const PieceDraft& draft, const PieceForm& form, const PieceVerdict& verdict,
+                   Furniture& result) {
+        Component thing = make_component(draft, verdict, Label::unknown);
+        thing.box = box_of(all_, draft, form, axes_, voxel_size_);
+        assign(draft, result.components.size(), result);
+        result.components.push_back(std::move(thing));
+    }
+
+    /// The top of what has one that is used: not of seats, nor of what is taller than people reach.
+    void add_top(const PieceDraft& draft, const PieceVerdict& verdict, const std::string& parent,
+                 Furniture& result) {
+        constexpr std::array<std::string_view, 11> with_top{
+            "table",      "desk",    "counter", "cabinet",      "base_unit", "drawer_unit",
+            "nightstand", "tv_unit", "bench",   "coffee_table", "wall_shelf"};
+        const bool has_top =
+            std::find(with_top.begin(), with_top.end(), verdict.kind) != with_top.end();
+        if (!has_top || draft.slabs.empty()) return;
+        const LevelSlab& slab = slabs_[draft.slabs.front()];
+        const FurnitureVoxel& some = all_.voxels[slab.voxels.front()];
+        const double z = some.place.z() - some.height + slab.height;
+        Component face = make_face(parent, "top", result.components.back());
+        // Voxels at the rim lie half of their edge within it.
+        const PlanRectangle& plan = slab.rectangle;
+        const Eigen::Vector2d u = 0.5 * (plan.length + 0.5 * voxel_size_) * plan.axis;
+        const Eigen::Vector2d v = 0.5 * (plan.width + 0.5 * voxel_size_) * plan.across();
+        for (const Eigen::Vector2d& corner : {Eigen::Vector2d(-u - v), Eigen::Vector2d(u - v),
+                                              Eigen::Vector2d(u + v), Eigen::Vector2d(v - u)}) {
+            const Eigen::Vector2d place = plan.center + corner;
+            face.polygon.emplace_back(axes_.transpose() * Eigen::Vector3d(place.x(), place.y(), z));
+        }
+        face.evidence.rule = "level top of a piece";
+        face.evidence.coverage = std::min(1.0, slab.area / std::max(plan.area(), 1e-9));
+        result.components.push_back(std::move(face));
+    }
+
+    const FurnitureVoxels& all_;
+    std::span<const LevelSlab> slabs_;
+    const RoomSurfaces& surfaces_;
+    std::span<const PlanarPatch> patches_;
+    Eigen::Matrix3d axes_;
+    double voxel_size_;
+    std::int32_t next_instance_;
+    int num_furniture_ = 0;
+    int num_things_ = 0;
+    std::vector<FrontSide> sides_;
+};
+
+void count_points(const SurfaceSample& sample, std::span<const Label> labels, Furniture& result) {
+    for (std::size_t i = 0; i < labels.size(); ++i) {
+        const std::uint32_t voxel = sample.voxel_of_point[i];
+        if (voxel == no_voxel || labels[i] != Label::unknown) continue;
+        const std::int32_t number = result.component_of_voxel[voxel];
+        if (number >= 0) ++result.components[static_cast<std::size_t>(number)].evidence.points;
+    }
+}
+
 }  // namespace
 
 Furniture find_furniture(const ScanMap& map, const SurfaceSample& sample,
@@ -47,41 +209,17 @@ Furniture find_furniture(const ScanMap& map, const SurfaceSample& sample,
     std::vector<PieceDraft> drafts = draft_tall_pieces(all, surfaces);
     for (PieceDraft& draft : draft_hanging_pieces(all))
         drafts.push_back(std::move(draft));
+    context.throw_if_cancelled();
     const std::vector<LevelSlab> slabs = find_level_slabs(all, sample.voxel_size);
-    const Eigen::Matrix3d axes = surfaces.room_from_map.linear();
-    int count = 0;
     for (PieceDraft& draft : draft_pieces(all, slabs))
         drafts.push_back(std::move(draft));
+    context.throw_if_cancelled();
+    FurnitureBuilder builder(all, slabs, surfaces, patches, sample.voxel_size, first_instance);
     for (const PieceDraft& draft : drafts) {
-        const PieceForm form = measure_form(all, slabs, draft, surfaces);
-        const PieceVerdict verdict = judge_piece(form);
-        if (!verdict.is_furniture) continue;
-        const FurnitureVoxel& some = all.voxels[draft.voxels.front()];
-        Component piece;
-        piece.id = fmt::format("furniture-{}", ++count);
-        piece.label = Label::furniture;
-        piece.kind = verdict.kind;
-        piece.instance = first_instance++;
-        piece.parent = surfaces.storeys[some.storey].room_ids[static_cast<std::size_t>(some.room)];
-        piece.box = box_of(all, draft, form, axes, sample.voxel_size);
-        piece.confidence = verdict.confidence;
-        piece.verdict = verdict.alternative.empty() ? Verdict::accepted : Verdict::doubtful;
-        piece.evidence.rule = verdict.rule;
-        piece.evidence.alternative = verdict.alternative;
-        for (const std::uint32_t i : draft.voxels)
-            result.component_of_voxel[all.voxels[i].voxel] =
-                static_cast<std::int32_t>(result.components.size());
-        result.components.push_back(std::move(piece));
+        if (!draft.voxels.empty()) builder.add(draft, result);
     }
-    std::vector<std::uint64_t> points(result.components.size(), 0);
-    for (std::size_t i = 0; i < map.cloud.size(); ++i) {
-        const std::uint32_t voxel = sample.voxel_of_point[i];
-        if (voxel == no_voxel || labels[i] != Label::unknown) continue;
-        const std::int32_t component = result.component_of_voxel[voxel];
-        if (component >= 0) ++points[static_cast<std::size_t>(component)];
-    }
-    for (std::size_t i = 0; i < points.size(); ++i)
-        result.components[i].evidence.points = points[i];
+    builder.add_fronts(map.cloud, sample, result);
+    count_points(sample, labels, result);
     return result;
 }
 

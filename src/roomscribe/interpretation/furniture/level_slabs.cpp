@@ -237,27 +237,55 @@ std::optional<Cut> cut_desks(const LevelSlab& slab) {
     return Cut{rectangle.axis, start + rectangle.length / count, 0.0};
 }
 
-std::optional<Cut> choose_cut(std::span<const Eigen::Vector2d> places, const LevelSlab& slab,
-                              double voxel_size) {
+/// Two tables, or rows of them, that face each other: halves of a table's depth. Where both ways to
+/// halve it would do, people sit along the cut, so that chairs stand beside it.
+std::optional<Cut> halve(const FurnitureVoxels& all, const LevelSlab& slab) {
+    const PlanRectangle& rectangle = slab.rectangle;
+    if (slab.height < 0.6 || rectangle.width <= max_table_width + 0.1) return std::nullopt;
+    constexpr double min_half = 0.5;  // m: desks are 0.6 deep at least
+    constexpr double chair_reach = 0.45;
+    std::optional<Cut> best;
+    std::size_t most = 0;
+    for (const bool is_long : {false, true}) {
+        const Eigen::Vector2d direction = is_long ? rectangle.axis : rectangle.across();
+        const double halved = is_long ? rectangle.length : rectangle.width;
+        const double kept = is_long ? rectangle.width : rectangle.length;
+        if (halved / 2.0 < min_half || halved / 2.0 > max_table_width) continue;
+        if (is_long && kept > max_table_length) continue;
+        std::size_t beside = 0;
+        for (const FurnitureVoxel& voxel : all.voxels) {
+            if (!voxel.is_core || voxel.height < 0.35 || voxel.height > 1.15) continue;
+            const Eigen::Vector2d from = voxel.place.head<2>() - rectangle.center;
+            const double out = std::abs(from.dot(direction)) - halved / 2.0;
+            const Eigen::Vector2d other = is_long ? rectangle.across() : rectangle.axis;
+            if (out < 0.05 || out > chair_reach || std::abs(from.dot(other)) > kept / 2.0) continue;
+            ++beside;
+        }
+        if (best && beside <= most) continue;
+        most = beside;
+        best = Cut{direction, rectangle.center.dot(direction), 0.0};
+    }
+    return best;
+}
+
+std::optional<Cut> choose_cut(const FurnitureVoxels& all, std::span<const Eigen::Vector2d> places,
+                              const LevelSlab& slab, double voxel_size) {
     const PlanRectangle& rectangle = slab.rectangle;
     if (rectangle.width <= max_table_width + 0.1) return cut_desks(slab);
     // What fills less than this of its rectangle is an L or several at angles.
-    constexpr double min_fill = 0.85;
+    constexpr double min_fill = 0.8;
     if (slab.area < min_fill * rectangle.area()) {
         const Cut cut = find_cut(places, rectangle, 2.0 * voxel_size);
-        if (cut.area < 0.93 * rectangle.area()) return cut;
+        if (cut.area < 0.9 * rectangle.area()) return cut;
     }
-    // Two rows of tables that face each other.
-    const bool faces = rectangle.width <= 2.0 * max_table_width && slab.height > 0.6;
-    if (!faces) return std::nullopt;
-    return Cut{rectangle.across(), rectangle.center.dot(rectangle.across()), 0.0};
+    return halve(all, slab);
 }
 
 /// Parts a slab that is no single rectangle, or larger than any table, and its parts.
 void part_slab(const FurnitureVoxels& all, LevelSlab slab, double voxel_size,
                std::vector<LevelSlab>& parts) {
     const std::vector<Eigen::Vector2d> places = places_of(all, slab.voxels);
-    const std::optional<Cut> cut = choose_cut(places, slab, voxel_size);
+    const std::optional<Cut> cut = choose_cut(all, places, slab, voxel_size);
     std::vector<std::uint32_t> low;
     std::vector<std::uint32_t> high;
     if (cut) {

@@ -62,12 +62,17 @@ double closed_share(const FurnitureVoxels& all, const PieceDraft& draft,
 /// Share of the voxels of a box that lie on flat surface: of plants and people few do.
 constexpr double min_planar = 0.5;
 
-/// Distance of the front from the wall that the piece stands at, if it does.
-std::optional<double> depth_before_wall(const RoomSurfaces& surfaces, const FurnitureVoxel& voxel,
-                                        const PlanRectangle& rectangle) {
+struct WallBehind {
+    double depth = 0.0;        ///< m, from the wall to the front
+    Eigen::Vector2d off_wall;  ///< unit vector
+};
+
+/// The wall that the piece stands at, if it does.
+std::optional<WallBehind> wall_behind(const RoomSurfaces& surfaces, const FurnitureVoxel& voxel,
+                                      const PlanRectangle& rectangle) {
     const StoreyLayout& storey = surfaces.storeys[voxel.storey];
     const Eigen::Matrix3d axes = surfaces.room_from_map.linear();
-    std::optional<double> least;
+    std::optional<WallBehind> least;
     for (const WallFace& face : storey.faces) {
         if (face.room != voxel.room) continue;
         const Eigen::Vector2d normal = (axes * face.plane.normal).head<2>();
@@ -80,7 +85,7 @@ std::optional<double> depth_before_wall(const RoomSurfaces& surfaces, const Furn
         const double at = along.dot(rectangle.center);
         if (at < face.start || at > face.end) continue;
         const double depth = to_center + half;
-        if (!least || depth < *least) least = depth;
+        if (!least || depth < least->depth) least = WallBehind{depth, normal};
     }
     return least;
 }
@@ -248,9 +253,11 @@ PieceForm measure_form(const FurnitureVoxels& all, std::span<const LevelSlab> sl
         largest = std::max(largest, end - begin);
     }
     form.face = 0.25 * all.reach * all.reach * static_cast<double>(largest);
-    const std::optional<double> depth = depth_before_wall(surfaces, some, form.rectangle);
-    form.depth = depth.value_or(0.0);
-    form.is_at_wall = depth && *depth - form.rectangle.width <= wall_reach;
+    if (const auto wall = wall_behind(surfaces, some, form.rectangle)) {
+        form.depth = wall->depth;
+        form.off_wall = wall->off_wall;
+        form.is_at_wall = wall->depth - form.rectangle.width <= wall_reach;
+    }
     const PlanRoom& room =
         surfaces.storeys[some.storey].plan.rooms[static_cast<std::size_t>(some.room)];
     form.reaches_ceiling =

@@ -25,7 +25,9 @@ struct PieceForm {
     double face = 0.0;     ///< m2, of the largest flat surface
     double planar = 0.0;   ///< share of the voxels that are part of a flat surface
     bool is_at_wall = false;  ///< its back is nearer than a hand's breadth to a wall
-    double depth = 0.0;       ///< m, from that wall to its front; 0 for no wall
+    /// In the room frame, level, off the wall that it stands at; zero for none.
+    Eigen::Vector2d off_wall = Eigen::Vector2d::Zero();
+    double depth = 0.0;  ///< m, from that wall to its front; 0 for no wall
     bool reaches_ceiling = false;
     std::size_t num_voxels = 0;
     std::size_t num_slabs = 0;
