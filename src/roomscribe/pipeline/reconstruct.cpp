@@ -115,7 +115,8 @@ void interpret_map(Reconstruction& reconstruction, const PipelineSettings& setti
     const std::size_t num_before = surfaces.surfaces.size() + openings.components.size();
     Furniture furniture =
         find_furniture(map, sample, patches, surfaces, reconstruction.labels.labels,
-                       static_cast<std::int32_t>(num_before), context);
+                       static_cast<std::int32_t>(num_before), seed_of(settings),
+                       settings.interpretation.furniture, context);
     label_furniture(sample, furniture, reconstruction.labels);
     finish("furniture", 1.0);
 

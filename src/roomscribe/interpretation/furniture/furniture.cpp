@@ -197,15 +197,91 @@ void count_points(const SurfaceSample& sample, std::span<const Label> labels, Fu
     }
 }
 
+/// The surfaces of Algorithm 5 as components: level ones are tables and other tops, upright ones
+/// faces of furniture.
+Furniture find_surfaces_of_paper(const ScanMap& map, const SurfaceSample& sample,
+                                 const FurnitureVoxels& all, const RoomSurfaces& surfaces,
+                                 std::span<const Label> labels, std::int32_t first_instance,
+                                 std::uint64_t seed, const FurnitureSurfaceSettings& settings,
+                                 const Context& context) {
+    std::vector<const FurnitureVoxel*> voxel_of_sample(sample.cloud.size(), nullptr);
+    for (const FurnitureVoxel& voxel : all.voxels)
+        voxel_of_sample[voxel.voxel] = &voxel;
+    PointCloud left;
+    std::vector<std::uint32_t> voxels;
+    for (std::size_t i = 0; i < map.cloud.size(); ++i) {
+        const std::uint32_t voxel = sample.voxel_of_point[i];
+        if (voxel == no_voxel || labels[i] != Label::unknown || !voxel_of_sample[voxel]) continue;
+        left.positions.push_back(map.cloud.positions[i]);
+        voxels.push_back(voxel);
+    }
+    const Eigen::Matrix3d axes = surfaces.room_from_map.linear();
+    const FurnitureSurfaces found = detect_furniture_surfaces(left, axes, seed, settings, context);
+    Furniture result;
+    result.component_of_voxel.assign(sample.cloud.size(), -1);
+    std::vector<std::int32_t> surface_of_point(found.cloud.size(), -1);
+    for (std::size_t s = 0; s < found.surfaces.size(); ++s) {
+        const FurnitureSurface& surface = found.surfaces[s];
+        const bool is_level = surface.axis == 2;
+        Component component;
+        component.label = Label::furniture;
+        component.id = fmt::format("furniture-{}", s + 1);
+        component.kind = is_level ? "table" : "front";
+        component.instance = first_instance + static_cast<std::int32_t>(s);
+        component.confidence = 0.5;
+        component.verdict = Verdict::accepted;
+        component.evidence.rule = is_level ? "level cluster on a plane along the room's axes"
+                                           : "upright cluster on a plane along the room's axes";
+        const Eigen::Vector3d normal = surface.plane.normal;
+        const Eigen::Vector3d along =
+            is_level ? Eigen::Vector3d(axes.row(0).transpose())
+                     : Eigen::Vector3d(axes.row(2).transpose().cross(normal).normalized());
+        const Eigen::Vector3d up = normal.cross(along);
+        Eigen::Vector2d low = Eigen::Vector2d::Constant(1e9);
+        Eigen::Vector2d high = -low;
+        for (const std::uint32_t point : surface.points) {
+            surface_of_point[point] = static_cast<std::int32_t>(s);
+            const Eigen::Vector3d position = found.cloud.positions[point].cast<double>();
+            const Eigen::Vector2d place(along.dot(position), up.dot(position));
+            low = low.cwiseMin(place);
+            high = high.cwiseMax(place);
+        }
+        const auto corner = [&](double x, double y) -> Eigen::Vector3d {
+            return surface.plane.offset * normal + x * along + y * up;
+        };
+        component.polygon = {corner(low.x(), low.y()), corner(high.x(), low.y()),
+                             corner(high.x(), high.y()), corner(low.x(), high.y())};
+        result.components.push_back(std::move(component));
+    }
+    for (std::size_t i = 0; i < voxels.size(); ++i) {
+        const std::uint32_t voxel = found.voxel_of_point[i];
+        if (voxel == no_voxel || surface_of_point[voxel] < 0) continue;
+        const std::int32_t surface = surface_of_point[voxel];
+        result.component_of_voxel[voxels[i]] = surface;
+        Component& component = result.components[static_cast<std::size_t>(surface)];
+        ++component.evidence.points;
+        const FurnitureVoxel& some = *voxel_of_sample[voxels[i]];
+        component.parent =
+            surfaces.storeys[some.storey].room_ids[static_cast<std::size_t>(some.room)];
+    }
+    return result;
+}
+
 }  // namespace
 
 Furniture find_furniture(const ScanMap& map, const SurfaceSample& sample,
                          std::span<const PlanarPatch> patches, const RoomSurfaces& surfaces,
                          std::span<const Label> labels, std::int32_t first_instance,
+                         std::uint64_t seed, const FurnitureSettings& settings,
                          const Context& context) {
+    check_settings(settings);
+    FurnitureVoxels all = gather_furniture_voxels(sample, patches, surfaces, labels, context);
+    if (settings.method == FurnitureMethod::algorithm_5) {
+        return find_surfaces_of_paper(map, sample, all, surfaces, labels, first_instance, seed,
+                                      settings.algorithm_5, context);
+    }
     Furniture result;
     result.component_of_voxel.assign(sample.cloud.size(), -1);
-    FurnitureVoxels all = gather_furniture_voxels(sample, patches, surfaces, labels, context);
     std::vector<PieceDraft> drafts = draft_tall_pieces(all, surfaces);
     for (PieceDraft& draft : draft_hanging_pieces(all))
         drafts.push_back(std::move(draft));

@@ -7,6 +7,7 @@
 
 #include "roomscribe/core/context.hpp"
 #include "roomscribe/interpretation/fixtures/mounting_face.hpp"
+#include "roomscribe/interpretation/furniture/furniture_settings.hpp"
 #include "roomscribe/interpretation/rooms/room_surfaces.hpp"
 #include "roomscribe/model/label.hpp"
 #include "roomscribe/model/scan.hpp"
@@ -31,9 +32,15 @@ struct Furniture {
 /// What stands in the rooms, and hangs on their walls, piece by piece. `labels` are those of the
 /// map's points so far: floor, ceiling, walls and openings; instances are counted on from
 /// `first_instance`. Nothing found gives empty tables.
+///
+/// By the default, voxels that no room surface or opening explains are parted into things
+/// (draft_tall_pieces, draft_pieces), and what has a piece's size and form is one (judge_piece). By
+/// Algorithm 5 each of its surfaces is a component of its own, without a piece; `seed` is of its
+/// draws.
 Furniture find_furniture(const ScanMap& map, const SurfaceSample& sample,
                          std::span<const PlanarPatch> patches, const RoomSurfaces& surfaces,
                          std::span<const Label> labels, std::int32_t first_instance,
+                         std::uint64_t seed, const FurnitureSettings& settings = {},
                          const Context& context = {});
 
 /// Gives the points that are unknown so far and lie in a piece's or thing's voxels to it.

@@ -25,6 +25,8 @@ constexpr double level_step = 0.02;
 /// m: tables are not deeper than 1.0 and not longer than 2.0 (docs/furniture.md).
 constexpr double max_table_width = 1.05;
 constexpr double max_table_length = 2.1;
+/// m above the floor: mattresses are lower, tables higher (docs/furniture.md).
+constexpr double min_table_height = 0.66;
 /// m: the shadow of a monitor or a box on a top.
 constexpr double max_shadow = 0.6;
 /// Share of the rectangle around two pieces of a top that they have to fill.
@@ -152,11 +154,10 @@ std::vector<std::vector<std::uint32_t>> join_sparse(const FurnitureVoxels& all,
                                                     double voxel_size) {
     constexpr double max_crumb_area = 0.1;  // m2
     constexpr double max_gap = 0.2;         // m
-    constexpr double min_table = 0.6;       // m above the floor; seats are too small for gaps
     std::vector<std::uint32_t> crumbs;
     for (std::uint32_t i = 0; i < pieces.size(); ++i) {
         const double area = voxel_size * voxel_size * static_cast<double>(pieces[i].size());
-        const bool is_high = all.voxels[pieces[i].front()].height >= min_table;
+        const bool is_high = all.voxels[pieces[i].front()].height >= min_table_height;
         if (area < max_crumb_area && is_high && pieces[i].size() > 1) crumbs.push_back(i);
     }
     DisjointSets sets(pieces.size());
@@ -228,7 +229,7 @@ Cut find_cut(std::span<const Eigen::Vector2d> places, const PlanRectangle& recta
 std::optional<Cut> cut_desks(const LevelSlab& slab) {
     constexpr double max_desk_height = 0.8;
     const PlanRectangle& rectangle = slab.rectangle;
-    if (slab.height > max_desk_height || slab.height < 0.6) return std::nullopt;
+    if (slab.height > max_desk_height || slab.height < min_table_height) return std::nullopt;
     if (rectangle.length <= max_table_length || rectangle.width > max_table_width) {
         return std::nullopt;
     }
@@ -241,7 +242,8 @@ std::optional<Cut> cut_desks(const LevelSlab& slab) {
 /// halve it would do, people sit along the cut, so that chairs stand beside it.
 std::optional<Cut> halve(const FurnitureVoxels& all, const LevelSlab& slab) {
     const PlanRectangle& rectangle = slab.rectangle;
-    if (slab.height < 0.6 || rectangle.width <= max_table_width + 0.1) return std::nullopt;
+    if (slab.height < min_table_height || rectangle.width <= max_table_width + 0.1)
+        return std::nullopt;
     constexpr double min_half = 0.5;  // m: desks are 0.6 deep at least
     constexpr double chair_reach = 0.45;
     std::optional<Cut> best;

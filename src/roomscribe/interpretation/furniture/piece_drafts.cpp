@@ -18,7 +18,7 @@ constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
 /// counters to 1.1; a child's table or a low chest between.
 constexpr double min_seat = 0.36;
 constexpr double max_seat = 0.56;
-constexpr double max_low = 0.58;
+constexpr double max_low = 0.66;
 constexpr double max_table = 1.2;
 /// m: a chair's seat is at most as wide as an office chair.
 constexpr double max_seat_width = 0.62;
@@ -128,6 +128,8 @@ class UpholsteryTest {
         const PlanRectangle whole = smallest_rectangle(places);
         const bool is_sofa = whole.length <= 2.6 && whole.width <= 1.2 && whole.width >= 0.6;
         const bool is_bed = whole.length <= 2.5 && whole.length >= 1.8 && whole.width <= 2.3;
+        constexpr double min_fill = 0.8;
+        if (filled_area(cluster) < min_fill * whole.area()) return false;
         return (is_sofa || is_bed) && is_closed_below(whole, *largest);
     }
 
@@ -135,6 +137,19 @@ class UpholsteryTest {
     /// A top at a table's height that is wider than a back or an arm is none.
     static bool may_be_part(const LevelSlab& slab) {
         return slab.height <= max_low || (slab.height <= 1.1 && slab.rectangle.width <= 0.36);
+    }
+
+    /// m2, of the plan, in squares of two voxels.
+    double filled_area(std::span<const std::uint32_t> cluster) const {
+        std::vector<std::pair<std::int32_t, std::int32_t>> cells;
+        for (const std::uint32_t i : cluster) {
+            const Eigen::Vector3d& place = all_.voxels[i].place;
+            cells.emplace_back(static_cast<std::int32_t>(std::floor(place.x() / all_.reach)),
+                               static_cast<std::int32_t>(std::floor(place.y() / all_.reach)));
+        }
+        std::sort(cells.begin(), cells.end());
+        const auto count = std::unique(cells.begin(), cells.end()) - cells.begin();
+        return all_.reach * all_.reach * static_cast<double>(count);
     }
 
     bool is_closed_below(const PlanRectangle& rectangle, const LevelSlab& some) const {

@@ -14,8 +14,8 @@ namespace {
 
 /// m: fronts are 16 to 22 mm thick, behind them is the carcass; the gap's floor is no deeper.
 constexpr double max_gap_depth = 0.05;
-/// m: a front with a raised frame has 6 mm of relief, which is no gap.
-constexpr double min_gap_depth = 0.009;
+/// m: rays that enter a gap of 4 mm aslant end on its side a little behind the face.
+constexpr double min_gap_depth = 0.0025;
 /// m: drawers are 0.1 high at least, doors 0.2 wide.
 constexpr double min_panel_height = 0.09;
 constexpr double min_panel_width = 0.18;
@@ -45,7 +45,7 @@ struct GapLine {
 class PanelParter {
   public:
     PanelParter(std::span<const SidePoint> points, double noise, std::vector<WallRectangle>& panels)
-        : points_(points), gap_depth_(std::max(min_gap_depth, 3.5 * noise)), panels_(panels) {}
+        : points_(points), gap_depth_(std::max(min_gap_depth, 2.5 * noise)), panels_(panels) {}
 
     void part(const WallRectangle& panel) {
         std::optional<GapLine> best;
@@ -78,8 +78,11 @@ class PanelParter {
         std::uint32_t num = 0;
     };
 
-    /// The clearest line from edge to edge along which points lie deeper. By how much it stands out
-    /// is counted in standard deviations of the number of deep points, were they scattered evenly.
+    /// Of how many lines are looked at (some hundred), one in a hundred faces may show a false one:
+    /// a chance of exp(-score) each (Chernoff's bound for a Poisson variable).
+    static constexpr double min_score = 9.0;
+
+    /// The clearest line from edge to edge along which more points lie deep than elsewhere.
     std::optional<GapLine> find_gap(const WallRectangle& panel, bool is_upright) const {
         const double extent = is_upright ? panel.width() : panel.height();
         const double length = is_upright ? panel.height() : panel.width();
@@ -108,7 +111,20 @@ class PanelParter {
                                 num_segments - 1)];
         }
         if (num_deep < num_segments) return std::nullopt;
-        const double share = static_cast<double>(num_deep) / static_cast<double>(num);
+        // How many points are deep elsewhere: of the three quarters of the bins with the fewest.
+        std::vector<std::pair<double, std::uint32_t>> shares;
+        for (const Bin& bin : bins) {
+            if (bin.num > 0)
+                shares.emplace_back(bin.num_deep / static_cast<double>(bin.num), bin.num);
+        }
+        std::sort(shares.begin(), shares.end());
+        double deep_elsewhere = 1.0;
+        double elsewhere = 1.0;
+        for (std::size_t i = 0; i < 3 * shares.size() / 4; ++i) {
+            deep_elsewhere += shares[i].first * shares[i].second;
+            elsewhere += shares[i].second;
+        }
+        const double share = deep_elsewhere / elsewhere;
         std::optional<GapLine> best;
         const auto margin = static_cast<std::size_t>(least / bin_width);
         for (std::size_t i = margin; i + margin < num_bins; ++i) {
@@ -116,13 +132,13 @@ class PanelParter {
             const Bin& a = bins[i];
             const Bin& b = bins[i - 1];
             const double deep = a.num_deep + b.num_deep;
-            const double expected = std::max(share * (a.num + b.num), 0.5);
-            const double score = (deep - expected) / std::sqrt(expected);
+            const double expected = share * (a.num + b.num);
+            if (deep <= expected) continue;
+            const double score = deep * std::log(deep / expected) - (deep - expected);
             std::size_t segments = 0;
             for (std::size_t k = 0; k < num_segments; ++k)
                 segments += a.deep[k] + b.deep[k] > 0 ? 1U : 0U;
-            constexpr double min_score = 6.0;
-            if (score < min_score || segments + 1 < num_segments) continue;
+            if (score < min_score || segments + 2 < num_segments) continue;
             if (!best || score > best->score) {
                 const double at = bin_width * static_cast<double>(i);
                 best = GapLine{is_upright, at + (is_upright ? panel.start : panel.bottom), score};

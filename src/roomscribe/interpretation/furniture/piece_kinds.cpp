@@ -278,7 +278,7 @@ PieceVerdict judge_piece(const PieceForm& form) {
     if (form.bottom > max_standing_bottom && form.num_slabs == 0) return {};
     if (form.num_slabs == 0) return form.top >= 1.25 ? judge_tall(form) : judge_plain(form);
     if (form.top >= 1.3) return judge_tall(form);
-    if (form.seat <= 0.58) {
+    if (form.seat <= 0.66) {
         const bool is_seat = form.seat >= 0.36 && form.rectangle.length <= 1.1;
         return is_seat ? judge_seat(form) : judge_low(form);
     }
