@@ -14,6 +14,7 @@
 #include "roomscribe/interpretation/furniture/piece_drafts.hpp"
 #include "roomscribe/interpretation/furniture/piece_faces.hpp"
 #include "roomscribe/interpretation/furniture/piece_kinds.hpp"
+#include "roomscribe/interpretation/furniture/shelf_contents.hpp"
 #include "roomscribe/interpretation/furniture/tall_pieces.hpp"
 
 namespace roomscribe {
@@ -38,6 +39,46 @@ OrientedBox box_of(const FurnitureVoxels& all, const PieceDraft& draft, const Pi
     return box;
 }
 
+/// Gives closed and tall drafts what lies behind them at the wall: their backs, which hang together
+/// with all that stands along it.
+void add_backs(const FurnitureVoxels& all, const RoomSurfaces& surfaces,
+               std::vector<PieceDraft>& drafts) {
+    constexpr double min_tall = 1.25;  // m above the floor, see tall_pieces.cpp
+    std::vector<bool> is_taken(all.voxels.size(), false);
+    for (const PieceDraft& draft : drafts) {
+        for (const std::uint32_t i : draft.voxels)
+            is_taken[i] = true;
+    }
+    std::vector<std::uint32_t> near_wall;
+    for (std::uint32_t i = 0; i < all.voxels.size(); ++i) {
+        if (all.voxels[i].is_near_wall && !is_taken[i]) near_wall.push_back(i);
+    }
+    for (PieceDraft& draft : drafts) {
+        if (draft.voxels.empty()) continue;
+        double top = 0.0;
+        double bottom = min_tall;
+        std::vector<Eigen::Vector2d> places;
+        for (const std::uint32_t i : draft.voxels) {
+            top = std::max(top, all.voxels[i].height);
+            bottom = std::min(bottom, all.voxels[i].height);
+            places.push_back(all.voxels[i].place.head<2>());
+        }
+        if (top < min_tall) continue;
+        const FurnitureVoxel& some = all.voxels[draft.voxels.front()];
+        const PlanRectangle rectangle =
+            extended_to_wall(smallest_rectangle(places), surfaces, some);
+        for (const std::uint32_t i : near_wall) {
+            const FurnitureVoxel& voxel = all.voxels[i];
+            if (is_taken[i] || voxel.room != some.room || voxel.storey != some.storey) continue;
+            if (voxel.height < bottom || voxel.height > top) continue;
+            if (rectangle.distance(voxel.place.head<2>()) > 0.5 * all.reach) continue;
+            is_taken[i] = true;
+            draft.voxels.push_back(i);
+        }
+        std::sort(draft.voxels.begin(), draft.voxels.end());
+    }
+}
+
 /// Makes the components of pieces and their faces.
 class FurnitureBuilder {
   public:
@@ -52,13 +93,14 @@ class FurnitureBuilder {
           voxel_size_(voxel_size),
           next_instance_(first_instance) {}
 
-    void add(const PieceDraft& draft, Furniture& result) {
+    void add(PieceDraft& draft, Furniture& result) {
         const PieceForm form = measure_form(all_, slabs_, draft, surfaces_);
         const PieceVerdict verdict = judge_piece(form);
         if (!verdict.is_furniture) {
             if (!verdict.kind.empty()) add_thing(draft, form, verdict, result);
             return;
         }
+        if (verdict.kind == "shelf") drop_shelf_contents(all_, draft);
         const std::size_t number = result.components.size();
         Component piece = make_component(draft, verdict, Label::furniture);
         piece.box = box_of(all_, draft, form, axes_, voxel_size_);
@@ -290,8 +332,9 @@ Furniture find_furniture(const ScanMap& map, const SurfaceSample& sample,
     for (PieceDraft& draft : draft_pieces(all, slabs))
         drafts.push_back(std::move(draft));
     context.throw_if_cancelled();
+    add_backs(all, surfaces, drafts);
     FurnitureBuilder builder(all, slabs, surfaces, patches, sample.voxel_size, first_instance);
-    for (const PieceDraft& draft : drafts) {
+    for (PieceDraft& draft : drafts) {
         if (!draft.voxels.empty()) builder.add(draft, result);
     }
     builder.add_fronts(map.cloud, sample, result);

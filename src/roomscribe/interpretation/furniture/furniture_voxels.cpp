@@ -173,7 +173,8 @@ FurnitureVoxels gather_furniture_voxels(const SurfaceSample& sample,
         if (patch) voxel.patch = static_cast<std::uint32_t>(patch - patches.data());
         voxel.is_planar = patch != nullptr && patch->area >= min_planar_area;
         voxel.looks_down = sample.normals_face_scanner && axes.row(2).dot(normal) < 0.0;
-        voxel.is_core = !is_near_wall(surfaces, voxel, position, sample.tolerance);
+        voxel.is_near_wall = is_near_wall(surfaces, voxel, position, sample.tolerance);
+        voxel.is_core = !voxel.is_near_wall;
         all.voxels.push_back(voxel);
     }
     all.reach = reach_in_voxels * std::max(sample.voxel_size, sample.spacing);

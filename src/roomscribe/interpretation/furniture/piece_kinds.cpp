@@ -121,7 +121,8 @@ PieceVerdict judge_hanging(const PieceForm& form) {
     const double height = form.top - form.bottom;
     if (form.rectangle.length < 0.3) return {};
     // Kitchens' wall units are 0.30 to 0.37 deep; a board for books 0.15 to 0.3.
-    if (height >= 0.3 && form.planar > min_planar && Range{0.2, 0.5}.holds(form.depth))
+    if (height >= 0.3 && form.rectangle.length >= 0.38 && form.planar > min_planar &&
+        form.face >= 0.12 && Range{0.2, 0.5}.holds(form.depth))
         return furniture("wall_unit", "box that hangs on a wall", 0.8);
     if (form.is_at_wall && height < 0.5 && form.level >= 0.3 &&
         Range{0.12, 0.4}.holds(form.rectangle.width) && form.rectangle.length >= 0.5) {
@@ -139,6 +140,9 @@ PieceVerdict judge_seat(const PieceForm& form) {
         if (across > 0.6) return furniture("office_chair", "seat with a back, on a foot", 0.8);
         return furniture("chair", "seat with a back", 0.85);
     }
+    if (form.rectangle.width < 0.24) return {};
+    // Cartons and bins stand anywhere, small chests at a wall.
+    if (form.closed > 0.7 && !form.is_at_wall) return {};
     if (form.closed > 0.7 && form.rectangle.width >= 0.3)
         return furniture("nightstand", "low box of a nightstand's size", 0.7);
     return furniture("stool", "seat without a back", 0.75);
@@ -188,7 +192,7 @@ PieceVerdict judge_tall(const PieceForm& form) {
     if (size.width < 0.15 && !Range{0.25, 0.75}.holds(form.depth)) return {};
     // Columns and pipes.
     if (form.reaches_ceiling && size.length < 0.6) return {};
-    if (size.length < 0.28) return {};
+    if (size.length < 0.38) return {};
     if (size.width <= 0.45 && (form.num_slabs >= 2 || form.level > 0.15))
         return furniture("shelf", "boards above each other", 0.8);
     if (Range{0.5, 0.75}.holds(size.length) && size.width >= 0.45)
@@ -201,13 +205,14 @@ PieceVerdict judge_tall(const PieceForm& form) {
 PieceVerdict judge_plain(const PieceForm& form) {
     const PlanRectangle& size = form.rectangle;
     if (form.top < 0.4 || size.length < 0.25) return {};
+    const double surface = form.surface;
     if (size.length > 2.5 && size.width > 1.2) return {};
     if (form.planar >= min_planar && form.upright >= 0.5 && size.length >= 0.35 &&
-        form.face >= 0.1) {
+        form.face >= 0.12 && form.face >= 0.25 * surface) {
         return furniture("cabinet", "upright sides of a box, top not seen", 0.6, "thing");
     }
     if (Range{0.7, 1.2}.holds(form.top) && Range{0.35, 0.95}.holds(size.length) &&
-        form.planar > 0.2)
+        form.planar > 0.4 && form.face >= 0.15 * surface)
         return furniture("chair", "size of a chair", 0.55, "thing");
     return {};
 }
@@ -252,7 +257,9 @@ PieceForm measure_form(const FurnitureVoxels& all, std::span<const LevelSlab> sl
             ++end;
         largest = std::max(largest, end - begin);
     }
-    form.face = 0.25 * all.reach * all.reach * static_cast<double>(largest);
+    const double voxel_area = 0.25 * all.reach * all.reach;
+    form.surface = voxel_area * static_cast<double>(draft.voxels.size());
+    form.face = voxel_area * static_cast<double>(largest);
     if (const auto wall = wall_behind(surfaces, some, form.rectangle)) {
         form.depth = wall->depth;
         form.off_wall = wall->off_wall;

@@ -22,6 +22,7 @@ struct PieceForm {
     double upright = 0.0;  ///< share of the voxels that are upright
     double seat = 0.0;     ///< m above the floor, of its main slab; 0 for none
     double closed = 0.0;   ///< share of the sides below the main slab that upright surface closes
+    double surface = 0.0;  ///< m2, of all voxels
     double face = 0.0;     ///< m2, of the largest flat surface
     double planar = 0.0;   ///< share of the voxels that are part of a flat surface
     bool is_at_wall = false;  ///< its back is nearer than a hand's breadth to a wall

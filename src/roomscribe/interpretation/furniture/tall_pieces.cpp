@@ -158,8 +158,8 @@ void join_boxes(const FurnitureVoxels& all, std::vector<TallBox>& boxes) {
     }
 }
 
-/// The rectangle with what lies between it and the wall that it stands along, where it is no
-/// deeper then than a wardrobe.
+}  // namespace
+
 PlanRectangle extended_to_wall(PlanRectangle rectangle, const RoomSurfaces& surfaces,
                                const FurnitureVoxel& some) {
     constexpr double max_depth = 0.75;
@@ -185,8 +185,6 @@ PlanRectangle extended_to_wall(PlanRectangle rectangle, const RoomSurfaces& surf
     }
     return rectangle;
 }
-
-}  // namespace
 
 std::vector<PieceDraft> draft_tall_pieces(FurnitureVoxels& all, const RoomSurfaces& surfaces) {
     const std::vector<std::uint32_t> tall = find_tall_voxels(all);
