@@ -17,7 +17,7 @@
 namespace roomscribe {
 
 /// In FurnitureVoxel: part of no patch.
-inline constexpr std::uint32_t no_patch = std::numeric_limits<std::uint32_t>::max();
+inline constexpr std::uint32_t off_patch = std::numeric_limits<std::uint32_t>::max();
 
 /// A voxel of the surface sample within a room that no floor, ceiling, wall or opening explains.
 struct FurnitureVoxel {
@@ -27,7 +27,7 @@ struct FurnitureVoxel {
     Eigen::Vector3d place;  ///< m, along the axes of the room frame, without its translation
     double height = 0.0;    ///< m above the room's floor
     double noise = 0.0;     ///< m, across its surface
-    std::uint32_t patch = no_patch;  ///< planar patch that it is part of
+    std::uint32_t patch = off_patch;  ///< planar patch that it is part of
     bool is_level = false;           ///< part of a level surface
     bool is_upright = false;         ///< part of an upright one
     bool is_planar = false;          ///< part of a patch that is more than a hand's breadth wide

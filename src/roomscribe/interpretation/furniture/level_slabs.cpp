@@ -27,6 +27,8 @@ constexpr double max_table_width = 1.05;
 constexpr double max_table_length = 2.1;
 /// m above the floor: mattresses are lower, tables higher (docs/furniture.md).
 constexpr double min_table_height = 0.66;
+/// m: a chair's seat is at most as wide as an office chair's.
+constexpr double max_seat_width = 0.62;
 /// m: the shadow of a monitor or a box on a top.
 constexpr double max_shadow = 0.6;
 /// Share of the rectangle around two pieces of a top that they have to fill.
@@ -133,7 +135,11 @@ void join_shadowed(const FurnitureVoxels& all, std::vector<LevelSlab>& slabs, do
                 both.insert(both.end(), b.voxels.begin(), b.voxels.end());
                 std::sort(both.begin(), both.end());
                 LevelSlab joint = make_slab(all, std::move(both), voxel_size);
-                joins = fits_a_table(joint.rectangle) &&
+                const bool is_seats =
+                    a.height < min_table_height &&
+                    std::max(a.rectangle.length, b.rectangle.length) <= max_seat_width;
+                joins = (is_seats ? joint.rectangle.length <= max_seat_width
+                                  : fits_a_table(joint.rectangle)) &&
                         joint.area >= min_joint_fill * joint.rectangle.area();
                 if (joins) slabs[i] = std::move(joint);
             }

@@ -58,9 +58,10 @@ bool is_rail_of(const LevelSlab& rail, const LevelSlab& seat) {
            rise <= max_rise && seat.rectangle.area() > rail.rectangle.area();
 }
 
-bool touch(const FurnitureVoxels& all, const LevelSlab& a, const LevelSlab& b) {
+bool touch(const FurnitureVoxels& all, const LevelSlab& a, const LevelSlab& b,
+           double gap = 2.0 * beside) {
     for (const std::uint32_t i : a.voxels) {
-        if (b.rectangle.distance(all.voxels[i].place.head<2>()) <= 2.0 * beside) return true;
+        if (b.rectangle.distance(all.voxels[i].place.head<2>()) <= gap) return true;
     }
     return false;
 }
@@ -98,6 +99,7 @@ class UpholsteryTest {
     bool operator()(const LevelSlab& a, const LevelSlab& b) const {
         if (!may_be_part(a) || !may_be_part(b)) return false;
         if (std::min(a.height, b.height) > max_low || !touch(all_, a, b)) return false;
+        if (are_two_chairs(a, b)) return false;
         std::vector<Eigen::Vector2d> places;
         for (const LevelSlab* slab : {&a, &b}) {
             for (const std::uint32_t i : slab->voxels)
@@ -123,6 +125,8 @@ class UpholsteryTest {
             const LevelSlab& slab = slabs[slab_of_voxel[i]];
             if (!may_be_part(slab)) return false;
             if (!largest || slab.area > largest->area) largest = &slab;
+            if (&slab == largest) continue;
+            if (are_two_chairs(slab, *largest)) return false;
         }
         if (!largest || top > 1.25 || largest->height > max_low) return false;
         const PlanRectangle whole = smallest_rectangle(places);
@@ -134,6 +138,13 @@ class UpholsteryTest {
     }
 
   private:
+    /// Seats of one height with a gap between: cushions of a sofa touch.
+    bool are_two_chairs(const LevelSlab& a, const LevelSlab& b) const {
+        constexpr double min_gap = 0.07;
+        return use_of(a) == SlabUse::seat && use_of(b) == SlabUse::seat &&
+               !touch(all_, a, b, min_gap);
+    }
+
     /// A top at a table's height that is wider than a back or an arm is none.
     static bool may_be_part(const LevelSlab& slab) {
         return slab.height <= max_low || (slab.height <= 1.1 && slab.rectangle.width <= 0.36);

@@ -189,7 +189,7 @@ std::optional<FrontSide> find_front_side(const FurnitureVoxels& all, const Piece
     std::map<std::uint32_t, std::size_t> size_of_patch;
     for (const std::uint32_t i : draft.voxels) {
         const FurnitureVoxel& voxel = all.voxels[i];
-        if (voxel.patch != no_patch && voxel.is_upright) ++size_of_patch[voxel.patch];
+        if (voxel.patch != off_patch && voxel.is_upright) ++size_of_patch[voxel.patch];
     }
     std::optional<FrontSide> best;
     std::size_t most = 0;

@@ -120,9 +120,10 @@ PieceVerdict furniture(std::string_view kind, std::string_view rule, double conf
 PieceVerdict judge_hanging(const PieceForm& form) {
     const double height = form.top - form.bottom;
     if (form.rectangle.length < 0.3) return {};
-    // Kitchens' wall units are 0.30 to 0.37 deep; a board for books 0.15 to 0.3.
+    // Kitchens' wall units are 0.30 to 0.37 deep, more with a door open; a board for books 0.15 to
+    // 0.3.
     if (height >= 0.3 && form.rectangle.length >= 0.38 && form.planar > min_planar &&
-        form.face >= 0.12 && Range{0.2, 0.5}.holds(form.depth))
+        form.face >= 0.12 && Range{0.2, 0.75}.holds(form.depth))
         return furniture("wall_unit", "box that hangs on a wall", 0.8);
     if (form.is_at_wall && height < 0.5 && form.level >= 0.3 &&
         Range{0.12, 0.4}.holds(form.rectangle.width) && form.rectangle.length >= 0.5) {
@@ -238,7 +239,7 @@ PieceForm measure_form(const FurnitureVoxels& all, std::span<const LevelSlab> sl
         num_level += voxel.is_level ? 1U : 0U;
         num_upright += voxel.is_upright ? 1U : 0U;
         num_planar += voxel.is_planar ? 1U : 0U;
-        if (voxel.patch != no_patch) of_patches.push_back(voxel.patch);
+        if (voxel.patch != off_patch) of_patches.push_back(voxel.patch);
     }
     const auto share = [&](std::size_t count) {
         return static_cast<double>(count) / static_cast<double>(draft.voxels.size());
