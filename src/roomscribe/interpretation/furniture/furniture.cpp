@@ -16,6 +16,7 @@
 #include "roomscribe/interpretation/furniture/piece_kinds.hpp"
 #include "roomscribe/interpretation/furniture/shelf_contents.hpp"
 #include "roomscribe/interpretation/furniture/tall_pieces.hpp"
+#include "roomscribe/interpretation/furniture/worktop_rows.hpp"
 
 namespace roomscribe {
 namespace {
@@ -332,6 +333,7 @@ Furniture find_furniture(const ScanMap& map, const SurfaceSample& sample,
     for (PieceDraft& draft : draft_pieces(all, slabs))
         drafts.push_back(std::move(draft));
     context.throw_if_cancelled();
+    join_worktop_rows(all, slabs, drafts);
     add_backs(all, surfaces, drafts);
     FurnitureBuilder builder(all, slabs, surfaces, patches, sample.voxel_size, first_instance);
     for (PieceDraft& draft : drafts) {

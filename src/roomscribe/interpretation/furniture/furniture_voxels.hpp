@@ -28,11 +28,11 @@ struct FurnitureVoxel {
     double height = 0.0;    ///< m above the room's floor
     double noise = 0.0;     ///< m, across its surface
     std::uint32_t patch = off_patch;  ///< planar patch that it is part of
-    bool is_level = false;           ///< part of a level surface
-    bool is_upright = false;         ///< part of an upright one
-    bool is_planar = false;          ///< part of a patch that is more than a hand's breadth wide
-    bool looks_down = false;         ///< its normal looks down, and normals look to the scanner
-    bool is_near_wall = false;       ///< within the relief of a wall's face
+    bool is_level = false;            ///< part of a level surface
+    bool is_upright = false;          ///< part of an upright one
+    bool is_planar = false;           ///< part of a patch that is more than a hand's breadth wide
+    bool looks_down = false;          ///< its normal looks down, and normals look to the scanner
+    bool is_near_wall = false;        ///< within the relief of a wall's face
     /// Hangs together with others in the room: neither a stray nor what is left of a wall's face.
     bool is_core = false;
 };

@@ -151,6 +151,8 @@ PieceVerdict judge_seat(const PieceForm& form) {
 
 PieceVerdict judge_low(const PieceForm& form) {
     const PlanRectangle& size = form.rectangle;
+    // Cartons and bins.
+    if (size.length < 0.8 && form.seat < 0.36) return {};
     if (size.length >= 1.75 && size.width >= 0.8 && Range{0.36, 0.7}.holds(form.seat) &&
         form.top < 1.3 && size.width <= 2.2 && (size.width > 1.15 || form.top < 0.7)) {
         return furniture("bed", "low surface of a bed's size", 0.8);
@@ -202,14 +204,19 @@ PieceVerdict judge_tall(const PieceForm& form) {
     return furniture("cabinet", "tall box", 0.75);
 }
 
-/// Things without a slab whose top is that of a chair or low cabinet.
+/// m above the floor: cartons and bins are lower; a scanner sees the top of a lower cabinet.
+constexpr double min_plain_top = 0.55;
+
+/// Things without a slab whose top is that of a chair or low cabinet. A cabinet of which only
+/// sides are seen stands before a wall.
 PieceVerdict judge_plain(const PieceForm& form) {
     const PlanRectangle& size = form.rectangle;
     if (form.top < 0.4 || size.length < 0.25) return {};
     const double surface = form.surface;
     if (size.length > 2.5 && size.width > 1.2) return {};
     if (form.planar >= min_planar && form.upright >= 0.5 && size.length >= 0.35 &&
-        form.face >= 0.12 && form.face >= 0.25 * surface) {
+        form.top >= min_plain_top && Range{0.22, 0.75}.holds(form.depth) && form.face >= 0.12 &&
+        form.face >= 0.25 * surface) {
         return furniture("cabinet", "upright sides of a box, top not seen", 0.6, "thing");
     }
     if (Range{0.7, 1.2}.holds(form.top) && Range{0.35, 0.95}.holds(size.length) &&
