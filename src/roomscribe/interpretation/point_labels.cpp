@@ -9,7 +9,6 @@
 
 #include "roomscribe/core/error.hpp"
 #include "roomscribe/core/parallel.hpp"
-#include "roomscribe/interpretation/furniture/standing_things.hpp"
 
 namespace roomscribe {
 namespace {
@@ -266,20 +265,6 @@ void label_openings(const PointCloud& map, const SurfaceSample& sample,
     });
 }
 
-/// What stands on the floor is furniture, for want of a better word for it; which piece is not
-/// told.
-void label_furniture(const SurfaceSample& sample, const RoomSurfaces& surfaces, PointLabels& labels,
-                     const Context& context) {
-    constexpr float confidence = 0.5F;
-    const std::vector<bool> stands = find_standing_things(sample, surfaces, labels.labels, context);
-    for (std::size_t i = 0; i < labels.labels.size(); ++i) {
-        const std::uint32_t voxel = sample.voxel_of_point[i];
-        if (voxel == no_voxel || !stands[voxel] || labels.labels[i] != Label::unknown) continue;
-        labels.labels[i] = Label::furniture;
-        labels.confidences[i] = confidence;
-    }
-}
-
 }  // namespace
 
 PointLabels label_points(const PointCloud& map, const SurfaceSample& sample,
@@ -314,7 +299,6 @@ PointLabels label_points(const PointCloud& map, const SurfaceSample& sample,
         }
     });
     label_openings(map, sample, patches, surfaces, openings, result, context);
-    label_furniture(sample, surfaces, result, context);
     return result;
 }
 

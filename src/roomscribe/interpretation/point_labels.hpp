@@ -33,9 +33,9 @@ struct PointLabelSettings {
 /// whose polygon, widened by the spacing of the sample, it lies; where the surface bends, nearness
 /// to one of its patches counts as well. What lies in the hole of a door or window, or in its
 /// frame, is theirs before it is the wall's; so is the leaf of a door that stands open. The
-/// confidence is the surface's, less the further the point is from it. What stands on the floor of
-/// a room besides is furniture, of no instance. All other points, and those that are not finite,
-/// are unknown: label unknown, instance -1, confidence 0.
+/// confidence is the surface's, less the further the point is from it. All other points, and those
+/// that are not finite, are unknown: label unknown, instance -1, confidence 0. What stands in the
+/// rooms is labelled by label_furniture afterwards.
 PointLabels label_points(const PointCloud& map, const SurfaceSample& sample,
                          std::span<const PlanarPatch> patches, const RoomSurfaces& surfaces,
                          const Openings& openings, const PointLabelSettings& settings = {},

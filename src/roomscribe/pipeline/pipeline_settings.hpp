@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "roomscribe/core/settings.hpp"
+#include "roomscribe/interpretation/furniture/furniture_settings.hpp"
 #include "roomscribe/interpretation/paper_rules/paper_rules_settings.hpp"
 #include "roomscribe/interpretation/point_labels.hpp"
 #include "roomscribe/interpretation/rooms/room_surfaces.hpp"
@@ -93,6 +94,7 @@ struct InterpretationSettings {
     RoomSurfacesSettings surfaces;
     PointLabelSettings labels;
     PaperRulesSettings paper;  ///< of the method `paper`
+    FurnitureSettings furniture;
 
     void visit(SettingVisitor& visitor) {
         visitor(method,
@@ -104,6 +106,7 @@ struct InterpretationSettings {
         visitor.group("surfaces", surfaces);
         visitor.group("labels", labels);
         visitor.group("paper", paper);
+        visitor.group("furniture", furniture);
     }
 };
 

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "roomscribe/interpretation/component_support.hpp"
+#include "roomscribe/interpretation/furniture/furniture.hpp"
 #include "roomscribe/interpretation/openings/wall_openings.hpp"
 #include "roomscribe/interpretation/paper_rules/label_by_rules.hpp"
 #include "roomscribe/interpretation/paper_rules/orient_by_door.hpp"
@@ -126,7 +127,14 @@ void interpret_by_default(Reconstruction& reconstruction, const ScanMap& map,
     stages.finish("doors, windows", 0.9);
     reconstruction.labels = label_points(map.cloud, sample, patches, surfaces, openings,
                                          settings.interpretation.labels, context);
-    stages.finish("point labels", 1.0);
+    stages.finish("point labels", 0.95);
+    const std::size_t num_before = surfaces.surfaces.size() + openings.components.size();
+    Furniture furniture =
+        find_furniture(map, sample, patches, surfaces, reconstruction.labels.labels,
+                       static_cast<std::int32_t>(num_before), seed_of(settings),
+                       settings.interpretation.furniture, context);
+    label_furniture(sample, furniture, reconstruction.labels);
+    stages.finish("furniture", 1.0);
 
     reconstruction.scene.room_from_map = surfaces.room_from_map;
     reconstruction.scene.rooms = std::move(surfaces.rooms);
@@ -134,6 +142,8 @@ void interpret_by_default(Reconstruction& reconstruction, const ScanMap& map,
         reconstruction.scene.components.push_back(std::move(surface.component));
     }
     std::move(openings.components.begin(), openings.components.end(),
+              std::back_inserter(reconstruction.scene.components));
+    std::move(furniture.components.begin(), furniture.components.end(),
               std::back_inserter(reconstruction.scene.components));
     add_derived_values(reconstruction.derived_values, statistics, sample, settings.structure);
 }

@@ -163,10 +163,7 @@ TEST(Interpretation, KeepsPointsWithoutPlaceUnknown) {
         EXPECT_EQ(found.labels.confidences[i], 0.0F);
     }
     for (std::size_t i = 0; i < total; ++i) {
-        // What stands about is furniture of no piece.
-        const bool has_instance =
-            found.labels.labels[i] != Label::unknown && found.labels.labels[i] != Label::furniture;
-        ASSERT_EQ(has_instance, found.labels.instances[i] != -1);
+        ASSERT_EQ(found.labels.labels[i] != Label::unknown, found.labels.instances[i] != -1);
         EXPECT_GE(found.labels.confidences[i], 0.0F);
         EXPECT_LE(found.labels.confidences[i], 1.0F);
     }

@@ -1,0 +1,303 @@
+// SPDX-License-Identifier: MIT
+#include "roomscribe/interpretation/furniture/piece_kinds.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "roomscribe/core/quantile.hpp"
+
+namespace roomscribe {
+namespace {
+
+/// m: pieces stand 16 to 35 mm off the wall for its skirting board, and voxels are 4 cm.
+constexpr double wall_reach = 0.12;
+/// m: no cabinet is deeper.
+constexpr double max_hidden_depth = 0.7;
+/// m before the wall: radiators are 5 to 12 cm thick and 3 to 6 off the wall, curtains hang as
+/// near.
+constexpr double max_thin_depth = 0.22;
+/// m above the floor: what stands shows something lower, unless other things hide it.
+constexpr double max_standing_bottom = 0.5;
+/// m above the floor: wall units begin at 1.35, shelves over a sofa or desk lower.
+constexpr double min_hanging_bottom = 0.9;
+
+double closed_share(const FurnitureVoxels& all, const PieceDraft& draft,
+                    const PlanRectangle& rectangle, double below) {
+    // Marks of 10 cm along the rim that some upright surface stands under.
+    constexpr double mark = 0.1;
+    constexpr double rim = 0.12;
+    const auto count = [](double side) {
+        return static_cast<std::size_t>(std::max(1.0, std::floor(side / mark)));
+    };
+    const std::size_t along = count(rectangle.length);
+    const std::size_t across = count(rectangle.width);
+    std::vector<bool> is_closed(2 * (along + across), false);
+    for (const std::uint32_t i : draft.voxels) {
+        const FurnitureVoxel& voxel = all.voxels[i];
+        if (!voxel.is_upright || voxel.height > below) continue;
+        const Eigen::Vector2d from_center = voxel.place.head<2>() - rectangle.center;
+        const double u = from_center.dot(rectangle.axis) / rectangle.length + 0.5;
+        const double v = from_center.dot(rectangle.across()) / rectangle.width + 0.5;
+        const auto bin = [](double share, std::size_t bins) {
+            return static_cast<std::size_t>(std::clamp(share * static_cast<double>(bins), 0.0,
+                                                       static_cast<double>(bins) - 1.0));
+        };
+        if (v * rectangle.width < rim) is_closed[bin(u, along)] = true;
+        if ((1.0 - v) * rectangle.width < rim) is_closed[along + bin(u, along)] = true;
+        if (u * rectangle.length < rim) is_closed[2 * along + bin(v, across)] = true;
+        if ((1.0 - u) * rectangle.length < rim)
+            is_closed[2 * along + across + bin(v, across)] = true;
+    }
+    // The best long side and the best short one: the others may not have been seen.
+    const auto share = [&](std::size_t first, std::size_t bins) {
+        const auto begin = is_closed.begin() + static_cast<std::ptrdiff_t>(first);
+        const auto closed = std::count(begin, begin + static_cast<std::ptrdiff_t>(bins), true);
+        return static_cast<double>(closed) / static_cast<double>(bins);
+    };
+    return std::max({share(0, along), share(along, along)});
+}
+
+/// Share of the voxels of a box that lie on flat surface: of plants and people few do.
+constexpr double min_planar = 0.5;
+
+struct WallBehind {
+    double depth = 0.0;        ///< m, from the wall to the front
+    Eigen::Vector2d off_wall;  ///< unit vector
+};
+
+/// The wall that the piece stands at, if it does.
+std::optional<WallBehind> wall_behind(const RoomSurfaces& surfaces, const FurnitureVoxel& voxel,
+                                      const PlanRectangle& rectangle) {
+    const StoreyLayout& storey = surfaces.storeys[voxel.storey];
+    const Eigen::Matrix3d axes = surfaces.room_from_map.linear();
+    std::optional<WallBehind> least;
+    for (const WallFace& face : storey.faces) {
+        if (face.room != voxel.room) continue;
+        const Eigen::Vector2d normal = (axes * face.plane.normal).head<2>();
+        const double to_center = normal.dot(rectangle.center) - face.plane.offset;
+        const double half = 0.5 * (rectangle.length * std::abs(rectangle.axis.dot(normal)) +
+                                   rectangle.width * std::abs(rectangle.across().dot(normal)));
+        // Of a cabinet before a wall only the front may have been seen.
+        if (to_center - half > max_hidden_depth || to_center < -wall_reach) continue;
+        const Eigen::Vector2d along = (axes * face.along).head<2>();
+        const double at = along.dot(rectangle.center);
+        if (at < face.start || at > face.end) continue;
+        const double depth = to_center + half;
+        if (!least || depth < least->depth) least = WallBehind{depth, normal};
+    }
+    return least;
+}
+
+/// What stands close before a wall and is thin: no furniture.
+PieceVerdict judge_thin(const PieceForm& form) {
+    PieceVerdict verdict;
+    const double height = form.top - form.bottom;
+    if (form.top <= 1.1 && form.bottom <= 0.35 && height >= 0.2 && form.rectangle.length >= 0.3) {
+        verdict.kind = "radiator";
+        verdict.rule = "thin low thing before a wall";
+        verdict.confidence = 0.7;
+    } else if (form.top > 1.7 && form.bottom < 0.8) {
+        verdict.kind = "curtain";
+        verdict.rule = "thin thing before a wall from its upper end down";
+        verdict.confidence = 0.5;
+    }
+    return verdict;
+}
+
+struct Range {
+    double low;
+    double high;
+    bool holds(double value) const { return value >= low && value <= high; }
+};
+
+PieceVerdict furniture(std::string_view kind, std::string_view rule, double confidence,
+                       std::string_view alternative = {}) {
+    return {true, kind, rule, alternative, confidence};
+}
+
+PieceVerdict judge_hanging(const PieceForm& form) {
+    const double height = form.top - form.bottom;
+    if (form.rectangle.length < 0.3) return {};
+    // Kitchens' wall units are 0.30 to 0.37 deep, more with a door open; a board for books 0.15 to
+    // 0.3.
+    if (height >= 0.3 && form.rectangle.length >= 0.38 && form.planar > min_planar &&
+        form.face >= 0.12 && Range{0.2, 0.75}.holds(form.depth))
+        return furniture("wall_unit", "box that hangs on a wall", 0.8);
+    if (form.is_at_wall && height < 0.5 && form.level >= 0.3 &&
+        Range{0.12, 0.4}.holds(form.rectangle.width) && form.rectangle.length >= 0.5) {
+        return furniture("wall_shelf", "board that hangs on a wall", 0.7);
+    }
+    return {};
+}
+
+PieceVerdict judge_seat(const PieceForm& form) {
+    const double across = form.rectangle.length;
+    if (across > 1.1) return {};
+    if (form.top >= 0.65) {
+        if (form.rectangle.width >= 0.7 && form.upright + form.level > 0.6)
+            return furniture("armchair", "seat with arms and a back", 0.7);
+        if (across > 0.6) return furniture("office_chair", "seat with a back, on a foot", 0.8);
+        return furniture("chair", "seat with a back", 0.85);
+    }
+    if (form.rectangle.width < 0.24) return {};
+    // Cartons and bins stand anywhere, small chests at a wall.
+    if (form.closed > 0.7 && !form.is_at_wall) return {};
+    if (form.closed > 0.7 && form.rectangle.width >= 0.3)
+        return furniture("nightstand", "low box of a nightstand's size", 0.7);
+    return furniture("stool", "seat without a back", 0.75);
+}
+
+PieceVerdict judge_low(const PieceForm& form) {
+    const PlanRectangle& size = form.rectangle;
+    // Cartons and bins.
+    if (size.length < 0.8 && form.seat < 0.36) return {};
+    if (size.length >= 1.75 && size.width >= 0.8 && Range{0.36, 0.7}.holds(form.seat) &&
+        form.top < 1.3 && size.width <= 2.2 && (size.width > 1.15 || form.top < 0.7)) {
+        return furniture("bed", "low surface of a bed's size", 0.8);
+    }
+    if (Range{0.65, 1.15}.holds(size.width) && form.top >= 0.6) {
+        if (size.length > 1.2)
+            return furniture("sofa", "seat of several with arms and a back", 0.8);
+        return furniture("armchair", "seat with arms and a back", 0.75);
+    }
+    if (form.closed > 0.7) {
+        if (size.length > 0.9) return furniture("tv_unit", "low closed box", 0.7);
+        return furniture("nightstand", "low box of a nightstand's size", 0.65);
+    }
+    if (size.width < 0.5 && size.length > 0.8) return furniture("bench", "long seat", 0.7);
+    return furniture("coffee_table", "low table top", 0.7);
+}
+
+PieceVerdict judge_table(const PieceForm& form) {
+    const PlanRectangle& size = form.rectangle;
+    // Window sills.
+    if (form.is_at_wall && form.depth < 0.3 && size.width < 0.28) return {};
+    if (form.closed > 0.7 && size.width <= 0.8) {
+        if (size.length > 1.8 && size.width >= 0.5 && Range{0.82, 0.98}.holds(form.seat))
+            return furniture("base_unit", "row of boxes under a worktop", 0.85);
+        if (size.length <= 0.7 && size.width >= 0.4)
+            return furniture("drawer_unit", "box of a drawer unit's size", 0.8);
+        return furniture("cabinet", "closed box with a top", 0.85);
+    }
+    if (form.seat > 0.85) return furniture("counter", "top at a counter's height", 0.7);
+    if (size.width <= 0.85 && size.length >= 1.0)
+        return furniture("desk", "top at a desk's height, open below", 0.85);
+    return furniture("table", "top at a table's height, open below", 0.8);
+}
+
+PieceVerdict judge_tall(const PieceForm& form) {
+    const PlanRectangle& size = form.rectangle;
+    if (form.planar < min_planar || form.face < 0.2) return {};
+    // A leaf that stands open is thin; of a wardrobe's front the wall is as far behind as it is
+    // deep.
+    if (size.width < 0.15 && !Range{0.25, 0.75}.holds(form.depth)) return {};
+    // Columns and pipes.
+    if (form.reaches_ceiling && size.length < 0.6) return {};
+    if (size.length < 0.38) return {};
+    if (size.width <= 0.45 && (form.num_slabs >= 2 || form.level > 0.15))
+        return furniture("shelf", "boards above each other", 0.8);
+    if (Range{0.5, 0.75}.holds(size.length) && size.width >= 0.45)
+        return furniture("fridge", "tall box of a fridge's size", 0.7);
+    if (size.width >= 0.5) return furniture("wardrobe", "tall deep box", 0.75);
+    return furniture("cabinet", "tall box", 0.75);
+}
+
+/// m above the floor: cartons and bins are lower; a scanner sees the top of a lower cabinet.
+constexpr double min_plain_top = 0.55;
+
+/// Things without a slab whose top is that of a chair or low cabinet. A cabinet of which only
+/// sides are seen stands before a wall.
+PieceVerdict judge_plain(const PieceForm& form) {
+    const PlanRectangle& size = form.rectangle;
+    if (form.top < 0.4 || size.length < 0.25) return {};
+    const double surface = form.surface;
+    if (size.length > 2.5 && size.width > 1.2) return {};
+    if (form.planar >= min_planar && form.upright >= 0.5 && size.length >= 0.35 &&
+        form.top >= min_plain_top && Range{0.22, 0.75}.holds(form.depth) && form.face >= 0.12 &&
+        form.face >= 0.25 * surface) {
+        return furniture("cabinet", "upright sides of a box, top not seen", 0.6, "thing");
+    }
+    if (Range{0.7, 1.2}.holds(form.top) && Range{0.35, 0.95}.holds(size.length) &&
+        form.planar > 0.4 && form.face >= 0.15 * surface)
+        return furniture("chair", "size of a chair", 0.55, "thing");
+    return {};
+}
+
+}  // namespace
+
+PieceForm measure_form(const FurnitureVoxels& all, std::span<const LevelSlab> slabs,
+                       const PieceDraft& draft, const RoomSurfaces& surfaces) {
+    PieceForm form;
+    form.num_voxels = draft.voxels.size();
+    form.num_slabs = draft.slabs.size();
+    if (draft.voxels.empty()) return form;
+    std::vector<double> heights;
+    std::vector<Eigen::Vector2d> places;
+    std::size_t num_level = 0;
+    std::size_t num_upright = 0;
+    std::size_t num_planar = 0;
+    std::vector<std::uint32_t> of_patches;
+    for (const std::uint32_t i : draft.voxels) {
+        const FurnitureVoxel& voxel = all.voxels[i];
+        heights.push_back(voxel.height);
+        places.push_back(voxel.place.head<2>());
+        num_level += voxel.is_level ? 1U : 0U;
+        num_upright += voxel.is_upright ? 1U : 0U;
+        num_planar += voxel.is_planar ? 1U : 0U;
+        if (voxel.patch != off_patch) of_patches.push_back(voxel.patch);
+    }
+    const auto share = [&](std::size_t count) {
+        return static_cast<double>(count) / static_cast<double>(draft.voxels.size());
+    };
+    form.level = share(num_level);
+    form.upright = share(num_upright);
+    form.rectangle = smallest_rectangle(places);
+    form.bottom = quantile(heights, 0.01);
+    form.top = quantile(heights, 0.99);
+    const FurnitureVoxel& some = all.voxels[draft.voxels.front()];
+    form.planar = share(num_planar);
+    std::sort(of_patches.begin(), of_patches.end());
+    std::size_t largest = 0;
+    for (std::size_t begin = 0, end = 0; begin < of_patches.size(); begin = end) {
+        while (end < of_patches.size() && of_patches[end] == of_patches[begin])
+            ++end;
+        largest = std::max(largest, end - begin);
+    }
+    const double voxel_area = 0.25 * all.reach * all.reach;
+    form.surface = voxel_area * static_cast<double>(draft.voxels.size());
+    form.face = voxel_area * static_cast<double>(largest);
+    if (const auto wall = wall_behind(surfaces, some, form.rectangle)) {
+        form.depth = wall->depth;
+        form.off_wall = wall->off_wall;
+        form.is_at_wall = wall->depth - form.rectangle.width <= wall_reach;
+    }
+    const PlanRoom& room =
+        surfaces.storeys[some.storey].plan.rooms[static_cast<std::size_t>(some.room)];
+    form.reaches_ceiling =
+        room.ceiling_height && form.top > *room.ceiling_height - room.floor_height - 0.2;
+    if (!draft.slabs.empty()) {
+        const LevelSlab& main = slabs[draft.slabs.front()];
+        form.seat = main.height;
+        form.closed = closed_share(all, draft, main.rectangle, main.height - 0.1);
+    }
+    return form;
+}
+
+PieceVerdict judge_piece(const PieceForm& form) {
+    constexpr std::size_t min_voxels = 30;  // of 4 cm: 0.05 m2 of surface
+    if (form.num_voxels < min_voxels) return {};
+    if (form.depth > 0.0 && form.depth <= max_thin_depth) return judge_thin(form);
+    if (form.bottom >= min_hanging_bottom) return judge_hanging(form);
+    if (form.bottom > max_standing_bottom && form.num_slabs == 0) return {};
+    if (form.num_slabs == 0) return form.top >= 1.25 ? judge_tall(form) : judge_plain(form);
+    if (form.top >= 1.3) return judge_tall(form);
+    if (form.seat <= 0.66) {
+        const bool is_seat = form.seat >= 0.36 && form.rectangle.length <= 1.1;
+        return is_seat ? judge_seat(form) : judge_low(form);
+    }
+    return judge_table(form);
+}
+
+}  // namespace roomscribe

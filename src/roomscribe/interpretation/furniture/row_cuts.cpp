@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: MIT
+#include "roomscribe/interpretation/furniture/row_cuts.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "roomscribe/core/quantile.hpp"
+#include "roomscribe/interpretation/furniture/plan_rectangle.hpp"
+
+namespace roomscribe {
+namespace {
+
+/// m: of the steps of the profile along the row.
+constexpr double bin_width = 0.05;
+/// m: the narrowest unit of a kitchen, and so much of a piece has to show on either side of a step.
+constexpr double min_piece = 0.28;
+/// m: tops of pieces that differ differ by more than a plate's thickness and noise.
+constexpr double min_top_step = 0.08;
+/// m: an overhang or a handle is not a step of the front.
+constexpr double min_front_step = 0.08;
+/// m: a row of less is one piece.
+constexpr double min_row = 0.7;
+
+/// Top and front of the row at places along it.
+struct Profile {
+    double start = 0.0;
+    std::array<std::vector<double>, 2> lines;  ///< top, front; NaN where nothing was seen
+};
+
+Profile measure_profile(const FurnitureVoxels& all, std::span<const std::uint32_t> members,
+                        const PlanRectangle& rectangle, const Eigen::Vector2d& to_front) {
+    Profile profile;
+    profile.start = rectangle.center.dot(rectangle.axis) - rectangle.length / 2.0;
+    const auto num_bins = static_cast<std::size_t>(rectangle.length / bin_width) + 1;
+    std::vector<std::array<std::vector<double>, 2>> values(num_bins);
+    for (const std::uint32_t i : members) {
+        const FurnitureVoxel& voxel = all.voxels[i];
+        const double along = voxel.place.head<2>().dot(rectangle.axis) - profile.start;
+        const auto bin = static_cast<std::size_t>(
+            std::clamp(along / bin_width, 0.0, static_cast<double>(num_bins - 1)));
+        values[bin][0].push_back(voxel.height);
+        values[bin][1].push_back(voxel.place.head<2>().dot(to_front));
+    }
+    constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+    for (auto& [heights, depths] : values) {
+        // Not the outermost voxels, which may be strays.
+        const bool is_seen = heights.size() >= 3;
+        profile.lines[0].push_back(is_seen ? quantile(heights, 0.95) : nothing);
+        profile.lines[1].push_back(is_seen ? quantile(depths, 0.95) : nothing);
+    }
+    return profile;
+}
+
+/// How much the medians on both sides of a bin's lower edge differ.
+double step_at(const std::vector<double>& line, std::size_t bin, std::size_t window) {
+    std::array<std::vector<double>, 2> sides;
+    for (std::size_t k = 0; k < window; ++k) {
+        if (std::isfinite(line[bin - 1 - k])) sides[0].push_back(line[bin - 1 - k]);
+        if (std::isfinite(line[bin + k])) sides[1].push_back(line[bin + k]);
+    }
+    if (2 * sides[0].size() < window || 2 * sides[1].size() < window) return 0.0;
+    return std::abs(median(sides[0]) - median(sides[1]));
+}
+
+}  // namespace
+
+std::vector<std::vector<std::uint32_t>> cut_row(const FurnitureVoxels& all,
+                                                std::span<const std::uint32_t> members) {
+    std::vector<Eigen::Vector2d> places;
+    for (const std::uint32_t i : members)
+        places.push_back(all.voxels[i].place.head<2>());
+    const PlanRectangle rectangle = smallest_rectangle(places);
+    std::vector<std::vector<std::uint32_t>> parts;
+    parts.emplace_back(members.begin(), members.end());
+    if (rectangle.length < min_row) return parts;
+    // The front is where most upright surface is: behind it little was seen.
+    const Eigen::Vector2d across = rectangle.across();
+    std::size_t in_front = 0;
+    for (const Eigen::Vector2d& place : places)
+        in_front += (place - rectangle.center).dot(across) > 0.0 ? 1U : 0U;
+    const bool is_front = 2 * in_front >= places.size();
+    const Profile profile =
+        measure_profile(all, members, rectangle, is_front ? across : Eigen::Vector2d(-across));
+    const std::size_t num_bins = profile.lines[0].size();
+    const auto window = static_cast<std::size_t>(std::lround(min_piece / bin_width));
+    double greatest = 1.0;
+    std::size_t cut = 0;
+    for (std::size_t bin = window; bin + window <= num_bins; ++bin) {
+        const double step = std::max({step_at(profile.lines[0], bin, window) / min_top_step,
+                                      step_at(profile.lines[1], bin, window) / min_front_step});
+        if (step > greatest) {
+            greatest = step;
+            cut = bin;
+        }
+    }
+    if (cut == 0) return parts;
+    const double at = profile.start + bin_width * static_cast<double>(cut);
+    std::array<std::vector<std::uint32_t>, 2> sides;
+    for (const std::uint32_t i : members)
+        sides[all.voxels[i].place.head<2>().dot(rectangle.axis) < at ? 0 : 1].push_back(i);
+    if (sides[0].empty() || sides[1].empty()) return parts;
+    parts.clear();
+    for (const std::vector<std::uint32_t>& side : sides) {
+        for (std::vector<std::uint32_t>& part : cut_row(all, side))
+            parts.push_back(std::move(part));
+    }
+    return parts;
+}
+
+}  // namespace roomscribe

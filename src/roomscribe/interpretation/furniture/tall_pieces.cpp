@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: MIT
+#include "roomscribe/interpretation/furniture/tall_pieces.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bitset>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <tuple>
+#include <utility>
+
+#include "roomscribe/interpretation/furniture/plan_rectangle.hpp"
+#include "roomscribe/interpretation/furniture/row_cuts.hpp"
+
+namespace roomscribe {
+namespace {
+
+/// m above the floor: no table, chair or desk with a monitor on it is so tall (office chairs end at
+/// 1.2), wardrobes, fridges and shelves are taller.
+constexpr double min_tall = 1.25;
+/// m above the floor, between which a tall piece shows its sides or front; plinths lie lower.
+constexpr double filled_from = 0.3;
+constexpr double filled_to = 1.2;
+/// m and share: of the levels between, some may be hidden by what stands before.
+constexpr double level_height = 0.1;
+constexpr std::size_t num_levels = 9;
+constexpr std::size_t min_filled_levels = 6;
+/// Fewer voxels are no side of a tall piece: 1.2 m x 8 cm in 4 cm.
+constexpr std::size_t min_voxels = 60;
+/// m: handles and overhangs.
+constexpr double beside = 0.06;
+
+/// A column of space over a square of the plan.
+struct Column {
+    std::array<std::int32_t, 4> key{};  ///< storey, room, x, y
+    std::uint32_t voxel = 0;
+};
+
+std::vector<std::uint32_t> find_tall_voxels(const FurnitureVoxels& all) {
+    std::vector<Column> columns;
+    const auto cell = [&](double at) {
+        return static_cast<std::int32_t>(std::floor(at / all.reach));
+    };
+    for (std::uint32_t i = 0; i < all.voxels.size(); ++i) {
+        const FurnitureVoxel& voxel = all.voxels[i];
+        if (!voxel.is_core) continue;
+        columns.push_back({{static_cast<std::int32_t>(voxel.storey), voxel.room,
+                            cell(voxel.place.x()), cell(voxel.place.y())},
+                           i});
+    }
+    std::sort(columns.begin(), columns.end(), [](const Column& a, const Column& b) {
+        return std::tie(a.key, a.voxel) < std::tie(b.key, b.voxel);
+    });
+    std::vector<std::uint32_t> tall;
+    for (std::size_t begin = 0, end = 0; begin < columns.size(); begin = end) {
+        std::bitset<num_levels> filled;
+        double top = 0.0;
+        for (; end < columns.size() && columns[end].key == columns[begin].key; ++end) {
+            const double height = all.voxels[columns[end].voxel].height;
+            top = std::max(top, height);
+            if (height < filled_from || height >= filled_to) continue;
+            filled.set(std::min(static_cast<std::size_t>((height - filled_from) / level_height),
+                                num_levels - 1));
+        }
+        if (top < min_tall || filled.count() < min_filled_levels) continue;
+        for (std::size_t k = begin; k < end; ++k)
+            tall.push_back(columns[k].voxel);
+    }
+    std::sort(tall.begin(), tall.end());
+    return tall;
+}
+
+PlanRectangle rectangle_around(const FurnitureVoxels& all, std::span<const std::uint32_t> members) {
+    std::vector<Eigen::Vector2d> places;
+    for (const std::uint32_t i : members)
+        places.push_back(all.voxels[i].place.head<2>());
+    return smallest_rectangle(places);
+}
+
+bool are_together(const FurnitureVoxel& a, const FurnitureVoxel& b) {
+    return a.storey == b.storey && a.room == b.room;
+}
+
+/// Sides and fronts of one tall thing.
+struct TallBox {
+    std::vector<std::uint32_t> voxels;
+    PlanRectangle rectangle;
+    double top = 0.0;
+};
+
+TallBox make_box(const FurnitureVoxels& all, std::vector<std::uint32_t> members) {
+    TallBox box;
+    box.rectangle = rectangle_around(all, members);
+    for (const std::uint32_t i : members)
+        box.top = std::max(box.top, all.voxels[i].height);
+    box.voxels = std::move(members);
+    return box;
+}
+
+/// Whether what lies between two boxes fills the height as boards do: the gap between a kitchen's
+/// worktop and wall units is wider (0.45 m and more) than that between boards.
+bool is_bridged(const FurnitureVoxels& all, const TallBox& a, const TallBox& b,
+                const PlanRectangle& both) {
+    constexpr double max_board_gap = 0.44;
+    std::vector<double> heights;
+    for (const FurnitureVoxel& voxel : all.voxels) {
+        if (!voxel.is_core || !are_together(voxel, all.voxels[a.voxels.front()])) continue;
+        const Eigen::Vector2d place = voxel.place.head<2>();
+        if (both.distance(place) > 0.0 || a.rectangle.distance(place) <= 0.0 ||
+            b.rectangle.distance(place) <= 0.0) {
+            continue;
+        }
+        heights.push_back(voxel.height);
+    }
+    if (heights.size() < min_voxels) return false;
+    std::sort(heights.begin(), heights.end());
+    double last = 0.1;
+    for (const double height : heights) {
+        if (height - last > max_board_gap) return false;
+        last = std::max(last, height);
+    }
+    return std::min(a.top, b.top) - last <= max_board_gap;
+}
+
+/// Sides of one shelf, or a front whose middle something hides: in line, of one height, with
+/// boards between; or one within the other's rectangle.
+void join_boxes(const FurnitureVoxels& all, std::vector<TallBox>& boxes) {
+    constexpr double max_length = 2.6;    // m: a wardrobe of four doors
+    constexpr double max_depth = 0.8;     // m
+    constexpr double same_height = 0.12;  // m
+    for (std::size_t i = 0; i < boxes.size(); ++i) {
+        for (std::size_t j = i + 1; j < boxes.size();) {
+            const TallBox& a = boxes[i];
+            const TallBox& b = boxes[j];
+            bool joins = are_together(all.voxels[a.voxels.front()], all.voxels[b.voxels.front()]);
+            if (joins) {
+                std::vector<std::uint32_t> members = a.voxels;
+                members.insert(members.end(), b.voxels.begin(), b.voxels.end());
+                std::sort(members.begin(), members.end());
+                TallBox both = make_box(all, std::move(members));
+                const double larger = std::max(a.rectangle.area(), b.rectangle.area());
+                const bool is_within = both.rectangle.area() <= 1.1 * larger;
+                const bool is_row =
+                    std::abs(a.top - b.top) <= same_height && both.rectangle.length <= max_length &&
+                    both.rectangle.width <= max_depth && is_bridged(all, a, b, both.rectangle);
+                joins = is_within || is_row;
+                if (joins) boxes[i] = std::move(both);
+            }
+            if (!joins) {
+                ++j;
+                continue;
+            }
+            boxes.erase(boxes.begin() + static_cast<std::ptrdiff_t>(j));
+            j = i + 1;
+        }
+    }
+}
+
+}  // namespace
+
+PlanRectangle extended_to_wall(PlanRectangle rectangle, const RoomSurfaces& surfaces,
+                               const FurnitureVoxel& some) {
+    constexpr double max_depth = 0.75;
+    constexpr double parallel = 0.98;
+    const Eigen::Matrix3d axes = surfaces.room_from_map.linear();
+    for (const WallFace& face : surfaces.storeys[some.storey].faces) {
+        if (face.room != some.room) continue;
+        const Eigen::Vector2d normal = (axes * face.plane.normal).head<2>();
+        const double at = (axes * face.along).head<2>().dot(rectangle.center);
+        if (at < face.start || at > face.end) continue;
+        const bool lies_along = std::abs(rectangle.across().dot(normal)) > parallel;
+        if (!lies_along) continue;
+        const double front =
+            normal.dot(rectangle.center) + 0.5 * rectangle.width - face.plane.offset;
+        if (front <= rectangle.width || front > max_depth) continue;
+        rectangle.center -= 0.5 * (front - rectangle.width) * normal;
+        rectangle.width = front;
+        if (rectangle.width > rectangle.length) {
+            rectangle.axis = rectangle.across();
+            std::swap(rectangle.length, rectangle.width);
+        }
+        return rectangle;
+    }
+    return rectangle;
+}
+
+std::vector<PieceDraft> draft_tall_pieces(FurnitureVoxels& all, const RoomSurfaces& surfaces) {
+    const std::vector<std::uint32_t> tall = find_tall_voxels(all);
+    std::vector<bool> is_tall(all.voxels.size(), false);
+    for (const std::uint32_t i : tall)
+        is_tall[i] = true;
+    std::vector<TallBox> boxes;
+    for (const std::vector<std::uint32_t>& sides : connected_voxels(all, tall, is_tall)) {
+        if (sides.size() < min_voxels) continue;
+        for (std::vector<std::uint32_t>& part : cut_row(all, sides))
+            boxes.push_back(make_box(all, std::move(part)));
+    }
+    join_boxes(all, boxes);
+    std::vector<PieceDraft> drafts;
+    for (const TallBox& box : boxes) {
+        const FurnitureVoxel& some = all.voxels[box.voxels.front()];
+        const PlanRectangle rectangle = extended_to_wall(box.rectangle, surfaces, some);
+        PieceDraft draft;
+        for (std::uint32_t i = 0; i < all.voxels.size(); ++i) {
+            FurnitureVoxel& voxel = all.voxels[i];
+            if (!voxel.is_core || !are_together(voxel, some)) continue;
+            if (voxel.height > box.top + beside) continue;
+            if (rectangle.distance(voxel.place.head<2>()) > beside) continue;
+            draft.voxels.push_back(i);
+            voxel.is_core = false;
+        }
+        if (!draft.voxels.empty()) drafts.push_back(std::move(draft));
+    }
+    return drafts;
+}
+
+std::vector<PieceDraft> draft_hanging_pieces(FurnitureVoxels& all) {
+    std::vector<bool> is_high(all.voxels.size(), false);
+    std::vector<std::uint32_t> high;
+    for (std::uint32_t i = 0; i < all.voxels.size(); ++i) {
+        is_high[i] = all.voxels[i].is_core && all.voxels[i].height > filled_to;
+        if (is_high[i]) high.push_back(i);
+    }
+    std::vector<PieceDraft> drafts;
+    for (std::vector<std::uint32_t>& members : connected_voxels(all, high, is_high)) {
+        double bottom = std::numeric_limits<double>::infinity();
+        for (const std::uint32_t i : members)
+            bottom = std::min(bottom, all.voxels[i].height);
+        if (bottom < min_tall) continue;
+        for (const std::uint32_t i : members)
+            all.voxels[i].is_core = false;
+        drafts.push_back({std::move(members), {}});
+    }
+    return drafts;
+}
+
+}  // namespace roomscribe

@@ -1,0 +1,358 @@
+// SPDX-License-Identifier: MIT
+#include "roomscribe/interpretation/furniture/furniture.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "roomscribe/core/random.hpp"
+#include "roomscribe/core/units.hpp"
+#include "roomscribe/interpretation/furniture/level_slabs.hpp"
+#include "roomscribe/interpretation/furniture/plan_rectangle.hpp"
+#include "roomscribe/interpretation/point_labels.hpp"
+#include "roomscribe/interpretation/upright/upright.hpp"
+#include "roomscribe/preprocessing/scan_statistics.hpp"
+#include "roomscribe/structure/planar_surfaces.hpp"
+#include "roomscribe/structure/principal_axes.hpp"
+
+namespace roomscribe {
+namespace {
+
+using Eigen::Vector3d;
+
+/// Clouds of rectangles whose points know what they are of.
+class MadeUpRoom {
+  public:
+    static constexpr double spacing = 0.02;
+    static constexpr int room = -1;
+
+    /// 5 x 4 x 2.6 m, closed.
+    MadeUpRoom() {
+        rectangle({0, 0, 0}, {5, 0, 0}, {0, 4, 0}, room);
+        rectangle({0, 0, 2.6}, {5, 0, 0}, {0, 4, 0}, room);
+        rectangle({0, 0, 0}, {5, 0, 0}, {0, 0, 2.6}, room);
+        rectangle({0, 4, 0}, {5, 0, 0}, {0, 0, 2.6}, room);
+        rectangle({0, 0, 0}, {0, 4, 0}, {0, 0, 2.6}, room);
+        rectangle({5, 0, 0}, {0, 4, 0}, {0, 0, 2.6}, room);
+    }
+
+    /// A box that stands with its middle at a place, turned about it; all sides but the underside.
+    void box(const Vector3d& middle, double turn, const Vector3d& size, int thing,
+             double bottom = 0.0) {
+        const Vector3d u = size.x() * Vector3d(std::cos(turn), std::sin(turn), 0.0);
+        const Vector3d v = size.y() * Vector3d(-std::sin(turn), std::cos(turn), 0.0);
+        const Vector3d w(0.0, 0.0, size.z());
+        const Vector3d low = middle - 0.5 * (u + v) + Vector3d(0.0, 0.0, bottom);
+        rectangle(low, u, w, thing);
+        rectangle(low + v, u, w, thing);
+        rectangle(low, v, w, thing);
+        rectangle(low + u, v, w, thing);
+        rectangle(low + w, u, v, thing);
+    }
+
+    /// What is seen of a box in a row along the wall at y = 0: its front and its top.
+    void in_row(double from, double to, double depth, double height, int thing) {
+        rectangle({from, depth, 0}, {to - from, 0, 0}, {0, 0, height}, thing);
+        rectangle({from, 0.03, height}, {to - from, 0, 0}, {0, depth - 0.03, 0}, thing);
+    }
+
+    /// A plate on four legs.
+    void table(const Vector3d& middle, double turn, double length, double width, double height,
+               int thing) {
+        box(middle, turn, {length, width, 0.03}, thing, height - 0.03);
+        const Vector3d u(std::cos(turn), std::sin(turn), 0.0);
+        const Vector3d v(-std::sin(turn), std::cos(turn), 0.0);
+        for (const double i : {-0.5, 0.5}) {
+            for (const double j : {-0.5, 0.5}) {
+                const Vector3d foot = middle + i * (length - 0.06) * u + j * (width - 0.06) * v;
+                box(foot, turn, {0.05, 0.05, height - 0.03}, thing);
+            }
+        }
+    }
+
+    /// A seat of 0.44 m at 0.45 m on four legs, with a back to 0.9 m on the far side.
+    void chair(const Vector3d& middle, double turn, int thing) {
+        table(middle, turn, 0.44, 0.44, 0.45, thing);
+        const Vector3d v(-std::sin(turn), std::cos(turn), 0.0);
+        box(middle + 0.21 * v, turn, {0.44, 0.03, 0.45}, thing, 0.45);
+    }
+
+    PointCloud cloud;
+    std::vector<int> things;  ///< per point
+
+  private:
+    void rectangle(const Vector3d& corner, const Vector3d& u, const Vector3d& v, int thing) {
+        const auto columns = static_cast<int>(std::ceil(u.norm() / spacing));
+        const auto rows = static_cast<int>(std::ceil(v.norm() / spacing));
+        const Vector3d normal = u.cross(v).normalized();
+        for (int i = 0; i <= columns; ++i) {
+            for (int j = 0; j <= rows; ++j) {
+                const Vector3d point =
+                    corner + u * i / columns + v * j / rows + 0.001 * random_.normal() * normal;
+                cloud.positions.emplace_back(point.cast<float>());
+                things.push_back(thing);
+            }
+        }
+    }
+
+    Random random_{7};
+};
+
+struct Found {
+    Furniture furniture;
+    PointLabels labels;
+    std::int32_t first_instance = 0;
+};
+
+/// The way up is given: that of a bare room with a box in it is anybody's guess.
+Found find(const PointCloud& cloud, const FurnitureSettings& settings = {},
+           const Context& context = {},
+           const Eigen::Matrix3d& room_from_map = Eigen::Matrix3d::Identity()) {
+    const ScanMap map = map_of_cloud({"room", cloud});
+    const ScanStatistics statistics = estimate_scan_statistics(map.cloud, context);
+    const SurfaceSample sample = sample_surface(map, statistics, {}, context);
+    const auto patches =
+        find_planar_surfaces(
+            map, sample,
+            {.distance_tolerance = sample.tolerance, .cell_size = 2.0 * sample.spacing}, context)
+            .patches;
+    const PrincipalAxes axes = estimate_principal_axes(patches, {}, context);
+    Upright upright = find_upright(sample, patches, axes, {}, context);
+    upright.room_from_map = room_from_map;
+    RoomSurfaces surfaces = find_room_surfaces(map, sample, patches, upright, {}, context);
+    const Openings openings = find_openings(map, sample, patches, surfaces, upright.room_from_map,
+                                            statistics.point_spacing, context);
+    Found found;
+    found.labels = label_points(map.cloud, sample, patches, surfaces, openings, {}, context);
+    found.first_instance =
+        static_cast<std::int32_t>(surfaces.surfaces.size() + openings.components.size());
+    found.furniture = find_furniture(map, sample, patches, surfaces, found.labels.labels,
+                                     found.first_instance, 1, settings, context);
+    label_furniture(sample, found.furniture, found.labels);
+    return found;
+}
+
+std::vector<const Component*> pieces_of(const Found& found) {
+    std::vector<const Component*> pieces;
+    for (const Component& component : found.furniture.components) {
+        if (component.label == Label::furniture && component.box) pieces.push_back(&component);
+    }
+    return pieces;
+}
+
+/// IoU in points of a made-up thing and the piece that shares most with it.
+double best_iou(const MadeUpRoom& made, const Found& found, int thing) {
+    std::map<std::int32_t, std::size_t> shared;
+    std::map<std::int32_t, std::size_t> size;
+    std::size_t num_thing = 0;
+    for (std::size_t i = 0; i < made.things.size(); ++i) {
+        const std::int32_t instance =
+            found.labels.labels[i] == Label::furniture ? found.labels.instances[i] : -1;
+        if (instance >= 0) ++size[instance];
+        if (made.things[i] != thing) continue;
+        ++num_thing;
+        if (instance >= 0) ++shared[instance];
+    }
+    double best = 0.0;
+    for (const auto& [instance, count] : shared) {
+        const double together = static_cast<double>(num_thing + size[instance] - count);
+        best = std::max(best, static_cast<double>(count) / together);
+    }
+    return best;
+}
+
+TEST(FindFurniture, FindsNothingInAnEmptyRoom) {
+    const MadeUpRoom made;
+    const Found found = find(made.cloud);
+    EXPECT_TRUE(found.furniture.components.empty());
+    EXPECT_TRUE(found.furniture.fronts.empty());
+}
+
+TEST(FindFurniture, GivesABoxOnTheFloorItsSizeTopAndFront) {
+    MadeUpRoom made;
+    made.box({2.0, 0.25, 0.0}, 0.0, {0.8, 0.45, 0.9}, 1);
+    const Found found = find(made.cloud);
+    const auto pieces = pieces_of(found);
+    ASSERT_EQ(pieces.size(), 1U);
+    EXPECT_EQ(pieces[0]->kind, "cabinet");
+    EXPECT_EQ(pieces[0]->instance, found.first_instance);
+    EXPECT_FALSE(pieces[0]->parent.empty());
+    EXPECT_NEAR(pieces[0]->box->size.x(), 0.8, 0.04);
+    EXPECT_NEAR(pieces[0]->box->size.y(), 0.45, 0.05);
+    EXPECT_NEAR(pieces[0]->box->size.z(), 0.9, 0.04);
+    // Its back lies on the wall for all that can be told.
+    EXPECT_GT(best_iou(made, found, 1), 0.6);
+    const Component* top = nullptr;
+    for (const Component& component : found.furniture.components) {
+        if (component.kind == "top") top = &component;
+    }
+    ASSERT_NE(top, nullptr);
+    EXPECT_EQ(top->parent, pieces[0]->id);
+    ASSERT_EQ(top->polygon.size(), 4U);
+    EXPECT_NEAR((top->polygon[1] - top->polygon[0]).norm(), 0.8, 0.05);
+    EXPECT_NEAR((top->polygon[2] - top->polygon[1]).norm(), 0.45, 0.05);
+    // The front looks off the wall at y = 0.
+    ASSERT_EQ(found.furniture.fronts.size(), 1U);
+    const MountingFace& front = found.furniture.fronts[0];
+    EXPECT_GT(front.plane.normal.y(), 0.99);
+    EXPECT_NEAR(front.plane.offset, 0.475, 0.01);
+    EXPECT_NEAR(front.extent.width(), 0.8, 0.02);
+    EXPECT_TRUE(front.may_be_several);
+    EXPECT_EQ(found.furniture.components[front.component].parent, pieces[0]->id);
+}
+
+TEST(FindFurniture, PartsCabinetsOfTwoHeightsSideBySide) {
+    MadeUpRoom made;
+    made.in_row(1.2, 2.0, 0.47, 0.9, 1);
+    made.in_row(2.0, 2.8, 0.47, 0.75, 2);
+    made.in_row(2.8, 3.8, 0.63, 2.0, 3);
+    const Found found = find(made.cloud);
+    EXPECT_EQ(pieces_of(found).size(), 3U);
+    for (const int thing : {1, 2, 3})
+        EXPECT_GT(best_iou(made, found, thing), 0.8) << thing;
+}
+
+TEST(FindFurniture, TellsAChairFromTheTableThatItIsPushedUnder) {
+    for (const double turn : {0.0, radians(30.0)}) {
+        MadeUpRoom made;
+        const Vector3d middle(2.5, 2.0, 0.0);
+        const Vector3d v(-std::sin(turn), std::cos(turn), 0.0);
+        made.table(middle, turn, 1.4, 0.8, 0.74, 1);
+        made.chair(middle + 0.4 * v, turn, 2);
+        const Found found = find(made.cloud);
+        EXPECT_EQ(pieces_of(found).size(), 2U);
+        EXPECT_GT(best_iou(made, found, 1), 0.8);
+        EXPECT_GT(best_iou(made, found, 2), 0.7);
+    }
+}
+
+TEST(FindFurniture, LeavesWhatStandsOnATableUnknown) {
+    MadeUpRoom made;
+    made.table({2.5, 2.0, 0.0}, 0.0, 1.4, 0.8, 0.74, 1);
+    made.box({2.4, 2.0, 0.0}, 0.0, {0.3, 0.25, 0.3}, 2, 0.74);
+    const Found found = find(made.cloud);
+    EXPECT_EQ(pieces_of(found).size(), 1U);
+    EXPECT_GT(best_iou(made, found, 1), 0.85);
+    EXPECT_LT(best_iou(made, found, 2), 0.1);
+}
+
+TEST(FindFurniture, CallsAThinThingBeforeAWallARadiator) {
+    MadeUpRoom made;
+    made.box({2.5, 0.09, 0.0}, 0.0, {1.2, 0.1, 0.5}, 1, 0.12);
+    const Found found = find(made.cloud);
+    ASSERT_EQ(found.furniture.components.size(), 1U);
+    const Component& radiator = found.furniture.components[0];
+    EXPECT_EQ(radiator.label, Label::unknown);
+    EXPECT_EQ(radiator.kind, "radiator");
+    for (std::size_t i = 0; i < made.things.size(); ++i) {
+        if (made.things[i] != 1) continue;
+        ASSERT_NE(found.labels.labels[i], Label::furniture);
+    }
+}
+
+TEST(FindFurniture, FindsTheSameUnderARigidMotion) {
+    MadeUpRoom made;
+    made.box({1.6, 0.25, 0.0}, 0.0, {0.8, 0.45, 0.9}, 1);
+    made.table({3.2, 2.2, 0.0}, 0.4, 1.4, 0.8, 0.74, 2);
+    Transform pose = Transform::Identity();
+    pose.linear() =
+        Eigen::AngleAxisd(0.7, Vector3d(0.3, -0.5, 0.8).normalized()).toRotationMatrix();
+    pose.translation() = Vector3d(12.0, -7.0, 3.0);
+    PointCloud moved = made.cloud;
+    transform_in_place(moved, pose);
+    const Found first = find(made.cloud);
+    const Found second = find(moved, {}, {}, pose.linear().transpose());
+    const auto a = pieces_of(first);
+    const auto b = pieces_of(second);
+    ASSERT_EQ(a.size(), 2U);
+    ASSERT_EQ(b.size(), 2U);
+    for (const Component* piece : a) {
+        const auto same = std::find_if(b.begin(), b.end(), [&](const Component* other) {
+            return (pose * piece->box->center - other->box->center).norm() < 0.05;
+        });
+        ASSERT_NE(same, b.end());
+        EXPECT_EQ((*same)->kind, piece->kind);
+        EXPECT_LT(((*same)->box->size - piece->box->size).norm(), 0.06);
+    }
+}
+
+TEST(FindFurniture, GivesTheSameBitsOnOneAndTwoThreads) {
+    MadeUpRoom made;
+    made.box({1.6, 0.25, 0.0}, 0.0, {0.8, 0.45, 0.9}, 1);
+    made.table({3.2, 2.2, 0.0}, 0.4, 1.4, 0.8, 0.74, 2);
+    Context one;
+    one.num_threads = 1;
+    Context two;
+    two.num_threads = 2;
+    const Found a = find(made.cloud, {}, one);
+    const Found b = find(made.cloud, {}, two);
+    EXPECT_EQ(a.furniture.component_of_voxel, b.furniture.component_of_voxel);
+    ASSERT_EQ(a.furniture.components.size(), b.furniture.components.size());
+    for (std::size_t i = 0; i < a.furniture.components.size(); ++i)
+        EXPECT_EQ(a.furniture.components[i].polygon, b.furniture.components[i].polygon);
+    EXPECT_EQ(a.labels.instances, b.labels.instances);
+}
+
+TEST(FindFurniture, FindsTheSurfacesOfAlgorithmFive) {
+    MadeUpRoom made;
+    made.box({2.5, 2.0, 0.0}, 0.0, {1.2, 0.9, 0.9}, 1);
+    FurnitureSettings settings;
+    settings.method = FurnitureMethod::algorithm_5;
+    const Found found = find(made.cloud, settings);
+    // A top of 1.08 m2 and four sides of 1.08 and 0.81 m2: more than 500 voxels of 3.5 cm each.
+    ASSERT_EQ(found.furniture.components.size(), 5U);
+    const auto tops =
+        std::count_if(found.furniture.components.begin(), found.furniture.components.end(),
+                      [](const Component& component) { return component.kind == "table"; });
+    EXPECT_EQ(tops, 1);
+    EXPECT_TRUE(found.furniture.fronts.empty());
+}
+
+TEST(DetectFurnitureSurfaces, DropsClustersOfFewerThanFiveHundred) {
+    PointCloud cloud;
+    const auto add = [&](double x0, double size) {
+        for (double x = 0.0; x <= size; x += 0.03) {
+            for (double y = 0.0; y <= size; y += 0.03)
+                cloud.positions.emplace_back(static_cast<float>(x0 + x), static_cast<float>(y),
+                                             0.7F);
+        }
+    };
+    add(0.0, 1.0);  // 1 m2: 816 voxels
+    add(2.0, 0.6);  // 0.36 m2: 294 voxels
+    const FurnitureSurfaces found =
+        detect_furniture_surfaces(cloud, Eigen::Matrix3d::Identity(), 1);
+    ASSERT_EQ(found.surfaces.size(), 1U);
+    EXPECT_EQ(found.surfaces[0].axis, 2);
+    EXPECT_NEAR(found.surfaces[0].plane.offset, 0.7, 1e-4);
+    EXPECT_NEAR(static_cast<double>(found.surfaces[0].points.size()), 816.0, 60.0);
+    for (const std::uint32_t point : found.surfaces[0].points)
+        EXPECT_LT(found.cloud.positions[point].x(), 1.1F);
+}
+
+TEST(DetectFurnitureSurfaces, FindsNothingInNothing) {
+    EXPECT_TRUE(detect_furniture_surfaces({}, Eigen::Matrix3d::Identity(), 1).surfaces.empty());
+}
+
+TEST(SmallestRectangle, FollowsATurnedRectangle) {
+    std::vector<Eigen::Vector2d> places;
+    const double turn = radians(25.0);
+    const Eigen::Vector2d u(std::cos(turn), std::sin(turn));
+    const Eigen::Vector2d v(-u.y(), u.x());
+    for (int i = 0; i <= 20; ++i) {
+        for (int j = 0; j <= 10; ++j)
+            places.emplace_back(Eigen::Vector2d(1.0, 2.0) + 0.1 * i * u + 0.1 * j * v);
+    }
+    const PlanRectangle rectangle = smallest_rectangle(places);
+    EXPECT_NEAR(rectangle.length, 2.0, 1e-9);
+    EXPECT_NEAR(rectangle.width, 1.0, 1e-9);
+    EXPECT_NEAR(std::abs(rectangle.axis.dot(u)), 1.0, 1e-9);
+    EXPECT_NEAR(rectangle.distance(Eigen::Vector2d(1.0, 2.0) + 2.3 * u + 0.5 * v), 0.3, 1e-9);
+    EXPECT_EQ(smallest_rectangle({}).area(), 0.0);
+}
+
+}  // namespace
+}  // namespace roomscribe
