@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 #include "roomscribe/core/units.hpp"
@@ -78,10 +79,51 @@ void add_sloping_ceilings(std::vector<Storey>& storeys, std::span<const PlanarPa
     }
 }
 
+/// Cells of the plan, ascending, that a level fills.
+std::vector<std::pair<int, int>> cells_of(const Level& level, const SurfaceSample& sample,
+                                          std::span<const PlanarPatch> patches,
+                                          const Eigen::Vector3d& up) {
+    constexpr double cell_size = 0.25;
+    const PlaneAxes axes = plane_axes(up);
+    std::vector<std::pair<int, int>> cells;
+    for (const std::uint32_t patch : level.patches) {
+        for (const std::uint32_t voxel : patches[patch].points) {
+            const Eigen::Vector3d point = sample.cloud.positions[voxel].cast<double>();
+            cells.emplace_back(static_cast<int>(std::floor(point.dot(axes.u) / cell_size)),
+                               static_cast<int>(std::floor(point.dot(axes.v) / cell_size)));
+        }
+    }
+    std::sort(cells.begin(), cells.end());
+    cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
+    return cells;
+}
+
+/// Takes out, from below, what lies under none of the levels above: ground that was seen through a
+/// window. Of two levels neither is it.
+void drop_ground(std::vector<const Level*>& levels, const SurfaceSample& sample,
+                 std::span<const PlanarPatch> patches, const Eigen::Vector3d& up) {
+    constexpr double min_share = 0.2;
+    while (levels.size() > 2) {
+        const auto ground = cells_of(*levels.front(), sample, patches, up);
+        std::vector<std::pair<int, int>> under;
+        for (std::size_t i = 1; i < levels.size(); ++i) {
+            const auto above = cells_of(*levels[i], sample, patches, up);
+            std::set_intersection(ground.begin(), ground.end(), above.begin(), above.end(),
+                                  std::back_inserter(under));
+        }
+        std::sort(under.begin(), under.end());
+        under.erase(std::unique(under.begin(), under.end()), under.end());
+        if (static_cast<double>(under.size()) >= min_share * static_cast<double>(ground.size()))
+            return;
+        levels.erase(levels.begin());
+    }
+}
+
 }  // namespace
 
-std::vector<Storey> find_storeys(std::span<const PlanarPatch> patches, const Eigen::Vector3d& up,
-                                 bool facing_is_known, const RoomSurfacesSettings& settings) {
+std::vector<Storey> find_storeys(const SurfaceSample& sample, std::span<const PlanarPatch> patches,
+                                 const Eigen::Vector3d& up, bool facing_is_known,
+                                 const RoomSurfacesSettings& settings) {
     const std::vector<Level> levels =
         find_levels(patches, up, facing_is_known, settings.level_tolerance);
     double largest = 0.0;
@@ -93,6 +135,7 @@ std::vector<Storey> find_storeys(std::span<const PlanarPatch> patches, const Eig
             large.push_back(&level);
         }
     }
+    if (!facing_is_known) drop_ground(large, sample, patches, up);
     const auto may_be_floor = [](const Level* level) { return level->facing_up >= 0.0; };
     const auto may_be_ceiling = [](const Level* level) { return level->facing_up <= 0.0; };
 

@@ -35,7 +35,8 @@ struct Storey {
 };
 
 /// The storeys of the map, from the lowest; at least one, which may be empty.
-std::vector<Storey> find_storeys(std::span<const PlanarPatch> patches, const Eigen::Vector3d& up,
-                                 bool facing_is_known, const RoomSurfacesSettings& settings);
+std::vector<Storey> find_storeys(const SurfaceSample& sample, std::span<const PlanarPatch> patches,
+                                 const Eigen::Vector3d& up, bool facing_is_known,
+                                 const RoomSurfacesSettings& settings);
 
 }  // namespace roomscribe

@@ -328,7 +328,8 @@ RoomSurfaces find_room_surfaces(const ScanMap& map, const SurfaceSample& sample,
     check_settings(settings);
     RoomSurfaces result;
     const Eigen::Vector3d up = upright.up();
-    std::vector<Storey> storeys = find_storeys(patches, up, upright.facing_is_known, settings);
+    std::vector<Storey> storeys =
+        find_storeys(sample, patches, up, upright.facing_is_known, settings);
     for (Storey& storey : storeys) {
         std::erase_if(storey.sloping_ceilings,
                       [&](std::uint32_t patch) { return !is_topmost(sample, patches[patch], up); });
