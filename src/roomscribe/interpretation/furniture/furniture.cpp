@@ -62,7 +62,7 @@ void add_backs(const FurnitureVoxels& all, const RoomSurfaces& surfaces,
         for (const std::uint32_t i : draft.voxels) {
             top = std::max(top, all.voxels[i].height);
             bottom = std::min(bottom, all.voxels[i].height);
-            places.push_back(all.voxels[i].place.head<2>());
+            places.emplace_back(all.voxels[i].place.head<2>());
         }
         if (top < min_tall) continue;
         const FurnitureVoxel& some = all.voxels[draft.voxels.front()];

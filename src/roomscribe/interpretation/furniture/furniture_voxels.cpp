@@ -65,7 +65,9 @@ class CellTable {
     struct Entry {
         Cell cell;
         std::uint32_t voxel;
-        auto operator<=>(const Entry&) const = default;
+        bool operator<(const Entry& other) const {
+            return cell != other.cell ? cell < other.cell : voxel < other.voxel;
+        }
     };
 
     Cell cell_of(const Eigen::Vector3d& place) const {

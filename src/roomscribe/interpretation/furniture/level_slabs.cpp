@@ -39,7 +39,7 @@ std::vector<Eigen::Vector2d> places_of(const FurnitureVoxels& all,
     std::vector<Eigen::Vector2d> places;
     places.reserve(members.size());
     for (const std::uint32_t i : members)
-        places.push_back(all.voxels[i].place.head<2>());
+        places.emplace_back(all.voxels[i].place.head<2>());
     return places;
 }
 
@@ -65,6 +65,7 @@ LevelSlab make_slab(const FurnitureVoxels& all, std::vector<std::uint32_t> membe
     LevelSlab slab;
     slab.rectangle = smallest_rectangle(places_of(all, members));
     std::vector<double> heights;
+    heights.reserve(members.size());
     for (const std::uint32_t i : members)
         heights.push_back(all.voxels[i].height);
     slab.height = median(heights);

@@ -103,7 +103,7 @@ class UpholsteryTest {
         std::vector<Eigen::Vector2d> places;
         for (const LevelSlab* slab : {&a, &b}) {
             for (const std::uint32_t i : slab->voxels)
-                places.push_back(all_.voxels[i].place.head<2>());
+                places.emplace_back(all_.voxels[i].place.head<2>());
         }
         const PlanRectangle both = smallest_rectangle(places);
         const bool is_sofa = both.length <= 2.6 && both.width <= 1.15;
@@ -119,7 +119,7 @@ class UpholsteryTest {
         double top = 0.0;
         const LevelSlab* largest = nullptr;
         for (const std::uint32_t i : cluster) {
-            places.push_back(all_.voxels[i].place.head<2>());
+            places.emplace_back(all_.voxels[i].place.head<2>());
             top = std::max(top, all_.voxels[i].height);
             if (slab_of_voxel[i] == none) continue;
             const LevelSlab& slab = slabs[slab_of_voxel[i]];
@@ -207,12 +207,12 @@ SlabGroups group_slabs(const FurnitureVoxels& all, std::span<const LevelSlab> sl
             const bool is_seat_below = use_of(small) == SlabUse::seat &&
                                        use_of(large) == SlabUse::table &&
                                        large.height - small.height > 0.12;
-            if (are_boards(small, large, of_small, of_large) && !is_seat_below) {
-                sets.join(static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j));
-            } else if ((is_lying_over(of_small) && !is_seat_below) ||
-                       is_drawer_of(all, small, large, of_small)) {
+            const bool is_board = are_boards(small, large, of_small, of_large) && !is_seat_below;
+            const bool is_on_or_in = (is_lying_over(of_small) && !is_seat_below) ||
+                                     is_drawer_of(all, small, large, of_small);
+            if (!is_board && is_on_or_in) {
                 is_part[j] = true;
-            } else if (is_upholstery(large, small) ||
+            } else if (is_board || is_upholstery(large, small) ||
                        (touch(all, small, large) &&
                         (is_rail_of(small, large) || is_rail_of(large, small)))) {
                 sets.join(static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j));
@@ -346,7 +346,7 @@ std::vector<Eigen::Vector2d> places_of(const FurnitureVoxels& all,
                                        std::span<const std::uint32_t> members) {
     std::vector<Eigen::Vector2d> places;
     for (const std::uint32_t i : members)
-        places.push_back(all.voxels[i].place.head<2>());
+        places.emplace_back(all.voxels[i].place.head<2>());
     return places;
 }
 

@@ -242,7 +242,7 @@ PieceForm measure_form(const FurnitureVoxels& all, std::span<const LevelSlab> sl
     for (const std::uint32_t i : draft.voxels) {
         const FurnitureVoxel& voxel = all.voxels[i];
         heights.push_back(voxel.height);
-        places.push_back(voxel.place.head<2>());
+        places.emplace_back(voxel.place.head<2>());
         num_level += voxel.is_level ? 1U : 0U;
         num_upright += voxel.is_upright ? 1U : 0U;
         num_planar += voxel.is_planar ? 1U : 0U;

@@ -71,7 +71,7 @@ std::vector<std::vector<std::uint32_t>> cut_row(const FurnitureVoxels& all,
                                                 std::span<const std::uint32_t> members) {
     std::vector<Eigen::Vector2d> places;
     for (const std::uint32_t i : members)
-        places.push_back(all.voxels[i].place.head<2>());
+        places.emplace_back(all.voxels[i].place.head<2>());
     const PlanRectangle rectangle = smallest_rectangle(places);
     std::vector<std::vector<std::uint32_t>> parts;
     parts.emplace_back(members.begin(), members.end());

@@ -60,7 +60,7 @@ void drop_shelf_contents(const FurnitureVoxels& all, PieceDraft& draft) {
     std::vector<Eigen::Vector2d> places;
     double top = 0.0;
     for (const std::uint32_t i : draft.voxels) {
-        places.push_back(all.voxels[i].place.head<2>());
+        places.emplace_back(all.voxels[i].place.head<2>());
         top = std::max(top, all.voxels[i].height);
     }
     const PlanRectangle rectangle = smallest_rectangle(places);

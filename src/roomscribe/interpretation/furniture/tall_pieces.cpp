@@ -75,7 +75,7 @@ std::vector<std::uint32_t> find_tall_voxels(const FurnitureVoxels& all) {
 PlanRectangle rectangle_around(const FurnitureVoxels& all, std::span<const std::uint32_t> members) {
     std::vector<Eigen::Vector2d> places;
     for (const std::uint32_t i : members)
-        places.push_back(all.voxels[i].place.head<2>());
+        places.emplace_back(all.voxels[i].place.head<2>());
     return smallest_rectangle(places);
 }
 

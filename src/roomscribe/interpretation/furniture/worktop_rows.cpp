@@ -34,7 +34,7 @@ struct RowPart {
 std::vector<Eigen::Vector2d> places_of(const FurnitureVoxels& all, const PieceDraft& draft) {
     std::vector<Eigen::Vector2d> places;
     for (const std::uint32_t i : draft.voxels)
-        places.push_back(all.voxels[i].place.head<2>());
+        places.emplace_back(all.voxels[i].place.head<2>());
     return places;
 }
 
