@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "roomscribe/core/settings.hpp"
+#include "roomscribe/interpretation/fixtures/find_fixtures.hpp"
 #include "roomscribe/interpretation/point_labels.hpp"
 #include "roomscribe/interpretation/rooms/room_surfaces.hpp"
 #include "roomscribe/interpretation/upright/upright.hpp"
@@ -79,11 +80,13 @@ struct InterpretationSettings {
     UprightSettings upright;
     RoomSurfacesSettings surfaces;
     PointLabelSettings labels;
+    FixtureSettings fixtures;
 
     void visit(SettingVisitor& visitor) {
         visitor.group("upright", upright);
         visitor.group("surfaces", surfaces);
         visitor.group("labels", labels);
+        visitor.group("fixtures", fixtures);
     }
 };
 

@@ -5,6 +5,8 @@
 #include <iterator>
 #include <utility>
 
+#include "roomscribe/interpretation/fixtures/find_fixtures.hpp"
+#include "roomscribe/interpretation/fixtures/mounting_faces.hpp"
 #include "roomscribe/interpretation/openings/wall_openings.hpp"
 #include "roomscribe/structure/planar_surfaces.hpp"
 #include "roomscribe/structure/plane_hough.hpp"
@@ -110,7 +112,13 @@ void interpret_map(Reconstruction& reconstruction, const PipelineSettings& setti
     finish("doors, windows", 0.9);
     reconstruction.labels = label_points(map.cloud, sample, patches, surfaces, openings,
                                          settings.interpretation.labels, context);
-    finish("point labels", 1.0);
+    finish("point labels", 0.97);
+    std::vector<MountingFace> faces =
+        mounting_faces_of_doors(sample, patches, surfaces, openings, surfaces.surfaces.size());
+    const std::vector<MountingFace> others = mounting_faces_of_patches(sample, patches, surfaces);
+    faces.insert(faces.end(), others.begin(), others.end());
+    const std::vector<Fixture> fixtures =
+        find_fixtures(map, sample, faces, settings.interpretation.fixtures, context);
 
     reconstruction.scene.room_from_map = surfaces.room_from_map;
     reconstruction.scene.rooms = std::move(surfaces.rooms);
@@ -119,6 +127,8 @@ void interpret_map(Reconstruction& reconstruction, const PipelineSettings& setti
     }
     std::move(openings.components.begin(), openings.components.end(),
               std::back_inserter(reconstruction.scene.components));
+    add_fixtures(fixtures, faces, reconstruction.scene, reconstruction.labels);
+    finish("fixtures", 1.0);
     add_derived_values(reconstruction.derived_values, statistics, sample, settings.structure);
 }
 
