@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "roomscribe/interpretation/fixtures/find_fixtures.hpp"
+#include "roomscribe/interpretation/fixtures/furniture_fixtures.hpp"
 #include "roomscribe/interpretation/fixtures/mounting_faces.hpp"
 #include "roomscribe/interpretation/openings/wall_openings.hpp"
 #include "roomscribe/structure/planar_surfaces.hpp"
@@ -117,8 +118,13 @@ void interpret_map(Reconstruction& reconstruction, const PipelineSettings& setti
         mounting_faces_of_doors(sample, patches, surfaces, openings, surfaces.surfaces.size());
     const std::vector<MountingFace> others = mounting_faces_of_patches(sample, patches, surfaces);
     faces.insert(faces.end(), others.begin(), others.end());
+    const FixtureSettings& fixture_settings = settings.interpretation.fixtures;
     const std::vector<Fixture> fixtures =
-        find_fixtures(map, sample, faces, settings.interpretation.fixtures, context);
+        fixture_settings.method == FixtureMethod::algorithm_5
+            ? detect_furniture_fixtures(
+                  map, sample, faces, seed_of(settings),
+                  {.aperture = fixture_settings.gripper.aperture, .consensus = {}}, context)
+            : find_fixtures(map, sample, faces, fixture_settings, context);
 
     reconstruction.scene.room_from_map = surfaces.room_from_map;
     reconstruction.scene.rooms = std::move(surfaces.rooms);
