@@ -77,6 +77,13 @@ Json grasp_of(const Grasp& grasp) {
             {"opening", length(grasp.opening)}};
 }
 
+Json motion_of(const OpeningMotion& motion) {
+    return {{"kind", motion_kind_name(motion.kind)},
+            {"point", numbers(motion.point, length_digits)},
+            {"direction", numbers(motion.direction, direction_digits)},
+            {"confidence", length(motion.confidence)}};
+}
+
 void put_text(Json& object, const char* key, const std::string& text) {
     if (!text.empty()) object[key] = text;
 }
@@ -105,6 +112,7 @@ Json component_of(const Component& component) {
     if (!component.polygon.empty()) json["polygon"] = polygon_of(component.polygon);
     if (component.box) json["box"] = box_of(*component.box);
     if (component.grasp) json["grasp"] = grasp_of(*component.grasp);
+    if (component.opens) json["opens"] = motion_of(*component.opens);
     put_number(json, "visible", component.visible);
     json["confidence"] = length(component.confidence);
     json["verdict"] = verdict_name(component.verdict);

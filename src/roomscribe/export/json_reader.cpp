@@ -173,6 +173,22 @@ void read(const Node& node, Grasp& grasp) {
     read_if_present(node, "opening", grasp.opening);
 }
 
+void read(const Node& node, MotionKind& kind) {
+    for (const MotionKind known : {MotionKind::hinged, MotionKind::pull}) {
+        if (motion_kind_name(known) != node.text()) continue;
+        kind = known;
+        return;
+    }
+    node.fail("\"" + node.text() + "\" is no way to open");
+}
+
+void read(const Node& node, OpeningMotion& motion) {
+    read(node.at("kind"), motion.kind);
+    read(node.at("point"), motion.point);
+    read(node.at("direction"), motion.direction);
+    read_if_present(node, "confidence", motion.confidence);
+}
+
 void read(const Node& node, Evidence& evidence) {
     read_if_present(node, "rule", evidence.rule);
     read_if_present(node, "points", evidence.points);
@@ -193,6 +209,9 @@ void read(const Node& node, Component& component) {
     if (const std::optional<Node> box = node.find("box")) read(*box, component.box.emplace());
     if (const std::optional<Node> grasp = node.find("grasp")) {
         read(*grasp, component.grasp.emplace());
+    }
+    if (const std::optional<Node> motion = node.find("opens")) {
+        read(*motion, component.opens.emplace());
     }
     read_if_present(node, "visible", component.visible);
     read_if_present(node, "confidence", component.confidence);

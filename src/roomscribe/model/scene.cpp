@@ -15,6 +15,10 @@ std::string_view verdict_name(Verdict verdict) {
     return "";
 }
 
+std::string_view motion_kind_name(MotionKind kind) {
+    return kind == MotionKind::hinged ? "hinged" : "pull";
+}
+
 Scene transformed_scene(Scene scene, const Transform& target_from_source) {
     const auto move = [&](std::vector<Eigen::Vector3d>& polygon) {
         for (Eigen::Vector3d& corner : polygon)
@@ -31,6 +35,10 @@ Scene transformed_scene(Scene scene, const Transform& target_from_source) {
             component.grasp->position = target_from_source * component.grasp->position;
             component.grasp->axis = target_from_source.linear() * component.grasp->axis;
             component.grasp->approach = target_from_source.linear() * component.grasp->approach;
+        }
+        if (component.opens) {
+            component.opens->point = target_from_source * component.opens->point;
+            component.opens->direction = target_from_source.linear() * component.opens->direction;
         }
     }
     for (Room& room : scene.rooms)

@@ -45,6 +45,23 @@ struct Grasp {
     double opening = 0.0;                                 ///< m, of the fingers
 };
 
+enum class MotionKind : std::uint8_t {
+    hinged,  ///< turns about an axis
+    pull,    ///< moves straight, as drawers do
+};
+std::string_view motion_kind_name(MotionKind kind);
+
+/// How a door or drawer opens. Geometry is in the map's frame.
+struct OpeningMotion {
+    MotionKind kind = MotionKind::hinged;
+    /// On the hinge's axis, beside the fixture; of a pull, where it is taken hold of.
+    Eigen::Vector3d point = Eigen::Vector3d::Zero();
+    /// Unit vector. About it a hinged face turns as a right hand's fingers do; a pull moves along
+    /// it.
+    Eigen::Vector3d direction = Eigen::Vector3d::UnitZ();
+    double confidence = 0.0;  ///< in [0, 1]
+};
+
 /// One thing that was found: a floor, a wall, a door. Geometry is in the map's frame.
 struct Component {
     std::string id;  ///< "wall-3"
@@ -55,6 +72,7 @@ struct Component {
     std::vector<Eigen::Vector3d> polygon;  ///< corners in order, on the component's plane
     std::optional<OrientedBox> box;
     std::optional<Grasp> grasp;
+    std::optional<OpeningMotion> opens;  ///< of doors and of the doors and drawers of furniture
     /// Of truth alone: the share of the component that the scans saw, in [0, 1].
     std::optional<double> visible;
     double confidence = 0.0;  ///< in [0, 1]

@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "roomscribe/core/settings.hpp"
+#include "roomscribe/interpretation/fixtures/find_fixtures.hpp"
 #include "roomscribe/interpretation/furniture/furniture_settings.hpp"
 #include "roomscribe/interpretation/paper_rules/paper_rules_settings.hpp"
 #include "roomscribe/interpretation/point_labels.hpp"
@@ -95,6 +96,7 @@ struct InterpretationSettings {
     PointLabelSettings labels;
     PaperRulesSettings paper;  ///< of the method `paper`
     FurnitureSettings furniture;
+    FixtureSettings fixtures;
 
     void visit(SettingVisitor& visitor) {
         visitor(method,
@@ -107,6 +109,7 @@ struct InterpretationSettings {
         visitor.group("labels", labels);
         visitor.group("paper", paper);
         visitor.group("furniture", furniture);
+        visitor.group("fixtures", fixtures);
     }
 };
 

@@ -6,6 +6,9 @@
 #include <utility>
 
 #include "roomscribe/interpretation/component_support.hpp"
+#include "roomscribe/interpretation/fixtures/find_fixtures.hpp"
+#include "roomscribe/interpretation/fixtures/furniture_fixtures.hpp"
+#include "roomscribe/interpretation/fixtures/mounting_faces.hpp"
 #include "roomscribe/interpretation/furniture/furniture.hpp"
 #include "roomscribe/interpretation/openings/wall_openings.hpp"
 #include "roomscribe/interpretation/paper_rules/label_by_rules.hpp"
@@ -105,6 +108,34 @@ class StageReporter {
     const Context& context_;
 };
 
+/// Doors' leaves, furniture's fronts, and what may be one that nothing else was told of.
+/// `num_before`: components of the scene before the furniture's.
+std::vector<MountingFace> faces_for_fixtures(const SurfaceSample& sample,
+                                             std::span<const PlanarPatch> patches,
+                                             const RoomSurfaces& surfaces, const Openings& openings,
+                                             const Furniture& furniture, std::size_t num_before) {
+    std::vector<MountingFace> faces =
+        mounting_faces_of_doors(sample, patches, surfaces, openings, surfaces.surfaces.size());
+    for (MountingFace face : furniture.fronts) {
+        face.component += num_before;
+        faces.push_back(face);
+    }
+    const std::vector<MountingFace> others = mounting_faces_of_patches(sample, patches, surfaces);
+    faces.insert(faces.end(), others.begin(), others.end());
+    return faces;
+}
+
+std::vector<Fixture> find_fixtures_by(const ScanMap& map, const SurfaceSample& sample,
+                                      std::span<const MountingFace> faces, std::uint64_t seed,
+                                      const FixtureSettings& settings, const Context& context) {
+    if (settings.method == FixtureMethod::algorithm_5) {
+        return detect_furniture_fixtures(map, sample, faces, seed,
+                                         {.aperture = settings.gripper.aperture, .consensus = {}},
+                                         context);
+    }
+    return find_fixtures(map, sample, faces, settings, context);
+}
+
 void interpret_by_default(Reconstruction& reconstruction, const ScanMap& map,
                           const PipelineSettings& settings, const Context& context) {
     StageReporter stages(reconstruction, context);
@@ -134,7 +165,11 @@ void interpret_by_default(Reconstruction& reconstruction, const ScanMap& map,
                        static_cast<std::int32_t>(num_before), seed_of(settings),
                        settings.interpretation.furniture, context);
     label_furniture(sample, furniture, reconstruction.labels);
-    stages.finish("furniture", 1.0);
+    stages.finish("furniture", 0.97);
+    const std::vector<MountingFace> faces =
+        faces_for_fixtures(sample, patches, surfaces, openings, furniture, num_before);
+    const std::vector<Fixture> fixtures = find_fixtures_by(
+        map, sample, faces, seed_of(settings), settings.interpretation.fixtures, context);
 
     reconstruction.scene.room_from_map = surfaces.room_from_map;
     reconstruction.scene.rooms = std::move(surfaces.rooms);
@@ -145,6 +180,8 @@ void interpret_by_default(Reconstruction& reconstruction, const ScanMap& map,
               std::back_inserter(reconstruction.scene.components));
     std::move(furniture.components.begin(), furniture.components.end(),
               std::back_inserter(reconstruction.scene.components));
+    add_fixtures(fixtures, faces, reconstruction.scene, reconstruction.labels);
+    stages.finish("fixtures", 1.0);
     add_derived_values(reconstruction.derived_values, statistics, sample, settings.structure);
 }
 

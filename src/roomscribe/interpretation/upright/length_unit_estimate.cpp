@@ -74,7 +74,7 @@ Reading read_along(const Eigen::Vector3d& up, LengthUnit unit, const SurfaceSamp
     }
     const double bottom = quantile(heights, 0.01);
     const double top = quantile(heights, 0.99);
-    const Storey storey = find_storeys(patches, up, false, {}).back();
+    const Storey storey = find_storeys(sample, patches, up, false, {}).back();
     reading.seen = top - (storey.floor ? storey.floor->height : bottom);
     if (!storey.floor || storey.ceilings.empty()) return reading;
     const Level& ceiling =
