@@ -120,7 +120,8 @@ std::vector<MountingFace> faces_for_fixtures(const SurfaceSample& sample,
         face.component += num_before;
         faces.push_back(face);
     }
-    const std::vector<MountingFace> others = mounting_faces_of_patches(sample, patches, surfaces);
+    const std::vector<MountingFace> others =
+        mounting_faces_of_patches(sample, patches, surfaces, furniture, num_before);
     faces.insert(faces.end(), others.begin(), others.end());
     return faces;
 }

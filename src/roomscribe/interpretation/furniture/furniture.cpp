@@ -81,6 +81,9 @@ void add_backs(const FurnitureVoxels& all, const RoomSurfaces& surfaces,
 }
 
 /// Makes the components of pieces and their faces.
+/// A piece that is more likely none, or another's part, is not listed.
+constexpr double min_confidence = 0.5;
+
 class FurnitureBuilder {
   public:
     FurnitureBuilder(const FurnitureVoxels& all, std::span<const LevelSlab> slabs,
@@ -99,6 +102,11 @@ class FurnitureBuilder {
         const PieceVerdict verdict = judge_piece(form);
         if (!verdict.is_furniture) {
             if (!verdict.kind.empty()) add_thing(draft, form, verdict, result);
+            return;
+        }
+        if (verdict.confidence < min_confidence) {
+            for (const std::uint32_t i : draft.voxels)
+                result.component_of_voxel[all_.voxels[i].voxel] = unnamed_furniture;
             return;
         }
         if (verdict.kind == "shelf") drop_shelf_contents(all_, draft);
@@ -349,6 +357,10 @@ void label_furniture(const SurfaceSample& sample, const Furniture& furniture, Po
         const std::uint32_t voxel = sample.voxel_of_point[i];
         if (voxel == no_voxel || labels.labels[i] != Label::unknown) continue;
         const std::int32_t number = furniture.component_of_voxel[voxel];
+        if (number == unnamed_furniture) {
+            labels.labels[i] = Label::furniture;
+            labels.confidences[i] = static_cast<float>(min_confidence);
+        }
         if (number < 0) continue;
         const Component& component = furniture.components[static_cast<std::size_t>(number)];
         labels.labels[i] = component.label;

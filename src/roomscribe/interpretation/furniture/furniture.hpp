@@ -17,13 +17,16 @@
 
 namespace roomscribe {
 
+/// In Furniture::component_of_voxel: furniture, but nothing tells which piece.
+inline constexpr std::int32_t unnamed_furniture = -2;
+
 /// Pieces of furniture with their faces, and what hangs on walls besides.
 struct Furniture {
     /// Each piece (label furniture, `box`) before its faces (label furniture, `polygon`, parent the
     /// piece); then what is no furniture but has a kind (label unknown).
     std::vector<Component> components;
     /// Number in `components` per voxel of the sample, of the piece or thing that its points
-    /// belong to; -1 for none.
+    /// belong to; -1 for none, or unnamed_furniture.
     std::vector<std::int32_t> component_of_voxel;
     /// The upright faces; `component` numbers `components`.
     std::vector<MountingFace> fronts;

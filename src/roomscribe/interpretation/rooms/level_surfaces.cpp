@@ -98,12 +98,17 @@ std::vector<std::pair<int, int>> cells_of(const Level& level, const SurfaceSampl
     return cells;
 }
 
-/// Takes out, from below, what lies under none of the levels above: ground that was seen through a
-/// window. Of two levels neither is it.
+/// Takes out, from below, what lies under none of the levels above and is much smaller than one of
+/// them: ground that was seen through a window. Of two levels neither is it.
 void drop_ground(std::vector<const Level*>& levels, const SurfaceSample& sample,
                  std::span<const PlanarPatch> patches, const Eigen::Vector3d& up) {
     constexpr double min_share = 0.2;
-    while (levels.size() > 2) {
+    const auto is_largest = [&] {
+        return std::none_of(levels.begin(), levels.end(), [&](const Level* other) {
+            return other->area > 2.0 * levels.front()->area;
+        });
+    };
+    while (levels.size() > 2 && !is_largest()) {
         const auto ground = cells_of(*levels.front(), sample, patches, up);
         std::vector<std::pair<int, int>> under;
         for (std::size_t i = 1; i < levels.size(); ++i) {

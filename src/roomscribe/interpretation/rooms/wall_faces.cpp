@@ -32,7 +32,7 @@ constexpr double min_face_width = 0.35;
 constexpr double max_inset = 0.3;
 /// m. Cupboards are 0.2 to 0.9 m deep, and leave this much of the wall behind them to see.
 constexpr double max_furniture_depth = 1.0;
-constexpr double min_clearance = 0.08;
+constexpr double min_clearance = 0.15;
 
 /// m, in which it is told where along a wall something was seen.
 constexpr double column_width = 0.1;
