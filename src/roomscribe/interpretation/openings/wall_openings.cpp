@@ -42,6 +42,7 @@ constexpr double usual_rail = 0.12;
 /// m. Outer walls are to 45 cm thick, with plaster and insulation to 60; inner ones 10 to 24.
 constexpr double max_thickness = 0.6;
 constexpr double usual_thickness = 0.12;
+constexpr double max_inner_wall = 0.26;
 /// m. uPVC frame and sash together show 100 to 120 mm, fixed lights 50 to 70 mm.
 constexpr double usual_window_frame = 0.08;
 
@@ -195,7 +196,8 @@ LeafExtent OpeningFinder::extent_of(const PlanarPatch& patch) const {
 OpenLeaf OpeningFinder::find_open_leaf(const WallFace& face, const WallRectangle& hole) const {
     constexpr double max_hinge_gap = 0.25;
     OpenLeaf leaf;
-    double nearest = max_hinge_gap;
+    // Cupboards beside a door look like leaves: the one that fits the hole best tells its depth.
+    double best_fit = std::numeric_limits<double>::infinity();
     for (std::uint32_t number = 0; number < patches_.size(); ++number) {
         const PlanarPatch& patch = patches_[number];
         if (!is_upright(patch)) continue;
@@ -212,19 +214,26 @@ OpenLeaf OpeningFinder::find_open_leaf(const WallFace& face, const WallRectangle
         if (width < 0.4 * std::min(hole.width(), max_leaf_width)) continue;
         // One end of the leaf is at the hinge.
         bool is_hinged = false;
+        double nearest = max_hinge_gap;
+        double depth = 0.0;
         for (const double position : {extent.start, extent.end}) {
             const Vector3d edge = position * extent.along + extent.across * patch.plane.normal;
             for (const double side : {hole.start, hole.end}) {
                 const Vector3d jamb = place(face, side, 0.0);
                 const Vector3d offset = edge - jamb;
                 const double gap = (offset - offset.dot(up_) * up_).norm();
-                is_hinged = is_hinged || gap <= max_hinge_gap;
                 if (gap > nearest) continue;
+                is_hinged = true;
                 nearest = gap;
-                leaf.depth = -face.plane.signed_distance(edge);
+                depth = -face.plane.signed_distance(edge);
             }
         }
-        if (is_hinged) leaf.patches.push_back(number);
+        if (!is_hinged) continue;
+        leaf.patches.push_back(number);
+        const double fit = std::abs(width - std::min(hole.width(), max_leaf_width));
+        if (fit >= best_fit) continue;
+        best_fit = fit;
+        leaf.depth = depth;
     }
     return leaf;
 }
@@ -302,6 +311,7 @@ std::optional<WallOpening> OpeningFinder::judge(std::size_t storey, std::size_t 
         hole.bottom = rooms.floor_height;
         opening.frame_width = casing_width;
         opening.rule = "pane of a door's height in the wall, indoors behind it";
+        opening.is_pane = true;
         opening.depth = 0.02;
         opening.confidence = 0.7;
         return opening;
@@ -382,6 +392,28 @@ void OpeningFinder::add_flat_doors(std::size_t storey, std::size_t number, const
     }
 }
 
+/// The panes of a double door are side by side.
+void join_panes(std::vector<WallOpening>& openings) {
+    constexpr double slack = 0.1;
+    const auto are_leaves = [](const WallOpening& a, const WallOpening& b) {
+        return a.is_pane && b.is_pane && std::abs(a.hole.end - b.hole.start) <= slack &&
+               std::abs(a.hole.top - b.hole.top) <= slack;
+    };
+    for (std::size_t i = 0; i < openings.size(); ++i) {
+        const auto other =
+            std::find_if(openings.begin(), openings.end(), [&](const WallOpening& b) {
+                return are_leaves(openings[i], b) &&
+                       b.hole.end - openings[i].hole.start <= max_door_width;
+            });
+        if (other == openings.end()) continue;
+        openings[i].hole.end = other->hole.end;
+        openings[i].is_pane = false;
+        other->is_pane = false;
+        openings.erase(other);
+        i = static_cast<std::size_t>(-1);
+    }
+}
+
 std::vector<WallOpening> OpeningFinder::look_at(std::size_t storey, std::size_t number) const {
     const StoreyLayout& rooms = layout(storey);
     const WallFace& face = rooms.faces[number];
@@ -395,6 +427,7 @@ std::vector<WallOpening> OpeningFinder::look_at(std::size_t storey, std::size_t 
         if (auto opening = judge(storey, number, relief, hole))
             openings.push_back(std::move(*opening));
     }
+    join_panes(openings);
     add_flat_doors(storey, number, relief, openings);
     return openings;
 }

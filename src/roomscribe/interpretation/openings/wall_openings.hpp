@@ -30,6 +30,7 @@ struct WallOpening {
     double frame_depth = 0.0;  ///< m behind the face, of a window's frame and mullions
     double frame_width = 0.0;  ///< m; around a leaf, within a window's hole; 0 for none
     bool is_open = false;      ///< a door that stands open
+    bool is_pane = false;      ///< a door of which one pane was told
     /// Of an open door, the patches of its leaf.
     std::vector<std::uint32_t> leaf_patches;
     std::int32_t room_behind = no_room;
