@@ -101,6 +101,7 @@ std::string explain_result(const std::filesystem::path& folder, std::span<const 
     std::vector<std::string> wanted(ids.begin(), ids.end());
     if (wanted.empty()) wanted = known_ids(result);
     std::vector<Explanation> explanations;
+    explanations.reserve(wanted.size());
     for (const std::string& id : wanted)
         explanations.push_back(explain(result, id));
     return as_json ? explanations_to_json(explanations) : explanations_to_text(explanations);

@@ -41,6 +41,7 @@ std::string size_text(const ComponentFacts& facts) {
 
 std::vector<std::string> ids_of(const std::vector<const Component*>& components) {
     std::vector<std::string> ids;
+    ids.reserve(components.size());
     for (const Component* component : components)
         ids.push_back(component->id);
     return ids;

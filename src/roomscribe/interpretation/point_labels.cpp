@@ -203,7 +203,7 @@ class OpeningTest {
 
   private:
     static constexpr float max_casing = 0.04F;    // m out of the wall
-    static constexpr double rebate = 0.02;  // m, of the frame's inner sides, seen aslant
+    static constexpr double rebate = 0.02;        // m, of the frame's inner sides, seen aslant
     static constexpr double lining_width = 0.08;  // m, of what rays see of it aslant
     static constexpr float leaf_reach = 0.06F;    // m: half of the leaf, its panels and noise
 

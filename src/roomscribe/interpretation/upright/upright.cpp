@@ -136,8 +136,8 @@ double scanner_height(const AxisProfile& profile, std::span<const double> scanne
     return score / static_cast<double>(scanners.size());
 }
 
-/// Two levels less than a storey's height apart are no floor and ceiling: the smaller one is a table
-/// or a shelf.
+/// Two levels less than a storey's height apart are no floor and ceiling: the smaller one is a
+/// table or a shelf.
 AxisProfile without_table_as_level(const AxisProfile& profile) {
     AxisProfile result = profile;
     if (!profile.low || !profile.high || *profile.high - *profile.low >= min_storey_height)
