@@ -31,8 +31,8 @@ ScanUnit tell_unit(std::span<const Scan> scans, std::span<const std::string> pat
 
 ScanUnit convert_to_metres(std::vector<Scan>& scans, std::span<const std::string> paths,
                            std::optional<LengthUnit> given, const Context& context) {
-    const ScanUnit unit = given ? ScanUnit{*given, *given == LengthUnit::metre ? "" : "--unit"}
-                                : tell_unit(scans, paths, context);
+    ScanUnit unit = given ? ScanUnit{*given, *given == LengthUnit::metre ? "" : "--unit"}
+                          : tell_unit(scans, paths, context);
     if (unit.unit == LengthUnit::metre) return unit;
     for (Scan& scan : scans)
         scale_in_place(scan.cloud, metres_per(unit.unit));
