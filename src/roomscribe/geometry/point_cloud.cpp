@@ -76,7 +76,7 @@ double median_distance(std::span<const Eigen::Vector3f> points) {
     const std::size_t step = std::max<std::size_t>(1, points.size() / num_samples);
     std::vector<Eigen::Vector3d> sample;
     for (std::size_t i = 0; i < points.size(); i += step) {
-        if (is_finite(points[i])) sample.push_back(points[i].cast<double>());
+        if (is_finite(points[i])) sample.emplace_back(points[i].cast<double>());
     }
     if (sample.empty()) return 0.0;
     Eigen::Vector3d middle;

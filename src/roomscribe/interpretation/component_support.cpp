@@ -39,10 +39,12 @@ bool is_flat(Label label) {
 
 /// Instances are numbered from 0 on.
 std::size_t instance_count(std::span<const Component> components) {
-    std::int32_t largest = -1;
-    for (const Component& component : components)
-        largest = std::max(largest, component.instance);
-    return static_cast<std::size_t>(largest + 1);
+    std::size_t count = 0;
+    for (const Component& component : components) {
+        if (component.instance >= 0)
+            count = std::max(count, static_cast<std::size_t>(component.instance) + 1);
+    }
+    return count;
 }
 
 SupportByInstance count_points(const ScanMap& map, const PointLabels& labels,

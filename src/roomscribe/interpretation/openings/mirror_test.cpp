@@ -2,6 +2,7 @@
 #include "roomscribe/interpretation/openings/mirror_test.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace roomscribe {
@@ -34,13 +35,15 @@ std::uint64_t MirrorTest::cell_of(const Vector3f& point) const {
 }
 
 bool MirrorTest::is_occupied(const Vector3f& point) const {
-    for (int code = 0; code < 27; ++code) {
-        const Vector3f offset(static_cast<float>(code % 3 - 1),
-                              static_cast<float>(code / 3 % 3 - 1),
-                              static_cast<float>(code / 9 - 1));
-        // Half a cell to all sides.
-        const Vector3f near = point + 0.5F * cell_size * offset;
-        if (std::binary_search(occupied_.begin(), occupied_.end(), cell_of(near))) return true;
+    // Half a cell to all sides.
+    constexpr std::array<float, 3> steps{-0.5F * cell_size, 0.0F, 0.5F * cell_size};
+    for (const float x : steps) {
+        for (const float y : steps) {
+            for (const float z : steps) {
+                const std::uint64_t cell = cell_of(point + Vector3f(x, y, z));
+                if (std::binary_search(occupied_.begin(), occupied_.end(), cell)) return true;
+            }
+        }
     }
     return false;
 }
