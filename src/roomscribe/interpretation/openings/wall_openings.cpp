@@ -42,7 +42,6 @@ constexpr double usual_rail = 0.12;
 /// m. Outer walls are to 45 cm thick, with plaster and insulation to 60; inner ones 10 to 24.
 constexpr double max_thickness = 0.6;
 constexpr double usual_thickness = 0.12;
-constexpr double max_inner_wall = 0.26;
 /// m. uPVC frame and sash together show 100 to 120 mm, fixed lights 50 to 70 mm.
 constexpr double usual_window_frame = 0.08;
 
