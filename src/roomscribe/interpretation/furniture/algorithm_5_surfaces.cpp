@@ -9,8 +9,8 @@
 
 #include "roomscribe/core/parallel.hpp"
 #include "roomscribe/core/random.hpp"
-#include "roomscribe/geometry/search_tree.hpp"
 #include "roomscribe/preprocessing/voxel_grid.hpp"
+#include "roomscribe/structure/euclidean_clusters.hpp"
 
 namespace roomscribe {
 namespace {
@@ -52,40 +52,6 @@ struct AxisPlaneProblem {
     }
 };
 
-/// Euclidean clusters of some points, each ascending, by their first point.
-std::vector<std::vector<std::uint32_t>> find_clusters(std::span<const Eigen::Vector3f> positions,
-                                                      std::span<const std::uint32_t> points,
-                                                      double tolerance) {
-    std::vector<Eigen::Vector3f> places;
-    places.reserve(points.size());
-    for (const std::uint32_t point : points)
-        places.push_back(positions[point]);
-    const SearchTree tree(places);
-    std::vector<bool> is_reached(places.size(), false);
-    std::vector<std::vector<std::uint32_t>> clusters;
-    std::vector<std::uint32_t> stack;
-    std::vector<Neighbor> neighbors;
-    for (std::uint32_t seed = 0; seed < places.size(); ++seed) {
-        if (is_reached[seed]) continue;
-        std::vector<std::uint32_t>& cluster = clusters.emplace_back();
-        is_reached[seed] = true;
-        stack.push_back(seed);
-        while (!stack.empty()) {
-            const std::uint32_t at = stack.back();
-            stack.pop_back();
-            cluster.push_back(points[at]);
-            tree.within_radius(places[at], tolerance, neighbors);
-            for (const Neighbor& neighbor : neighbors) {
-                if (is_reached[neighbor.index]) continue;
-                is_reached[neighbor.index] = true;
-                stack.push_back(neighbor.index);
-            }
-        }
-        std::sort(cluster.begin(), cluster.end());
-    }
-    return clusters;
-}
-
 }  // namespace
 
 FurnitureSurfaces detect_furniture_surfaces(const PointCloud& cloud, const Eigen::Matrix3d& axes,
@@ -118,7 +84,7 @@ FurnitureSurfaces detect_furniture_surfaces(const PointCloud& cloud, const Eigen
                 (problem.is_inlier(*found.model, point) ? inliers : others).push_back(point);
             left = std::move(others);
             for (std::vector<std::uint32_t>& cluster :
-                 find_clusters(positions, inliers, settings.cluster_tolerance)) {
+                 euclidean_clusters(positions, inliers, settings.cluster_tolerance)) {
                 if (cluster.size() < min_cluster) continue;
                 FurnitureSurface surface;
                 const auto fit = fit_plane(positions, cluster);
