@@ -80,8 +80,10 @@ void infer_scanner(Reconstruction& reconstruction) {
         return;
     }
     // Its ends of the range would be jumps everywhere.
-    const std::optional<Scan> cleaned = without_saturated_returns(Scan{"", map.cloud});
-    const OriginTest test = test_scan_origin(cleaned ? cleaned->cloud : map.cloud);
+    Scan scan;
+    scan.cloud.positions = map.cloud.positions;
+    const std::optional<Scan> cleaned = without_saturated_returns(scan);
+    const OriginTest test = test_scan_origin(cleaned ? cleaned->cloud : scan.cloud);
     if (test.is_scanner) map.sections[0].sensor_position = Eigen::Vector3d::Zero();
     reconstruction.derived_values.push_back(
         {"structure.jumps_from_origin", test.share_of_jumps, "",
@@ -151,10 +153,11 @@ void interpret_by_default(Reconstruction& reconstruction, const ScanMap& map,
     const Upright upright =
         find_upright(sample, patches, axes, settings.interpretation.upright, context);
     stages.finish("upright", 0.8);
-    RoomSurfaces surfaces = find_room_surfaces(map, sample, patches, upright,
+    const std::vector<Ray> rays = sample_rays(map);
+    RoomSurfaces surfaces = find_room_surfaces(rays, sample, patches, upright,
                                                settings.interpretation.surfaces, context);
     stages.finish("floor, ceiling, walls", 0.85);
-    Openings openings = find_openings(map, sample, patches, surfaces, upright.room_from_map,
+    Openings openings = find_openings(map, rays, sample, patches, surfaces, upright.room_from_map,
                                       statistics.point_spacing, context);
     stages.finish("doors, windows", 0.9);
     reconstruction.labels = label_points(map.cloud, sample, patches, surfaces, openings,

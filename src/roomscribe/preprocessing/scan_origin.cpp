@@ -17,8 +17,9 @@ constexpr std::size_t max_looks = 10'000;
 /// Of the distance. Neighbouring rays on a surface differ by less: at a degree between them and 20
 /// degrees to the surface, by 5 %.
 constexpr double min_jump = 0.05;
-/// Single scans of furnished rooms have 0.3 to 8 % of jumps at the edges of things, maps of several
-/// 10 % (an empty corridor) to 50 %. Rather no scanner than a wrong one.
+/// Most single scans have 0.3 to 8 % of jumps at the edges of things, maps of several 10 % (an
+/// empty corridor) to 50 %; tilting scanners whose lines lie far apart have as many as maps. Rather
+/// no scanner than a wrong one.
 constexpr double max_share = 0.06;
 
 }  // namespace

@@ -123,9 +123,11 @@ Found find(const PointCloud& cloud, const FurnitureSettings& settings = {},
     const PrincipalAxes axes = estimate_principal_axes(patches, {}, context);
     Upright upright = find_upright(sample, patches, axes, {}, context);
     upright.room_from_map = room_from_map;
-    RoomSurfaces surfaces = find_room_surfaces(map, sample, patches, upright, {}, context);
-    const Openings openings = find_openings(map, sample, patches, surfaces, upright.room_from_map,
-                                            statistics.point_spacing, context);
+    RoomSurfaces surfaces =
+        find_room_surfaces(sample_rays(map), sample, patches, upright, {}, context);
+    const Openings openings =
+        find_openings(map, sample_rays(map), sample, patches, surfaces, upright.room_from_map,
+                      statistics.point_spacing, context);
     Found found;
     found.labels = label_points(map.cloud, sample, patches, surfaces, openings, {}, context);
     found.first_instance =

@@ -37,10 +37,10 @@ Interpretation interpret(PointCloud cloud, const Context& context = {}) {
     result.patches = grow_planar_patches(result.sample.cloud, growing, context);
     const PrincipalAxes axes = estimate_principal_axes(result.patches, {}, context);
     result.upright = find_upright(result.sample, result.patches, axes, {}, context);
-    result.surfaces =
-        find_room_surfaces(map, result.sample, result.patches, result.upright, {}, context);
+    result.surfaces = find_room_surfaces(sample_rays(map), result.sample, result.patches,
+                                         result.upright, {}, context);
     result.openings =
-        find_openings(map, result.sample, result.patches, result.surfaces,
+        find_openings(map, sample_rays(map), result.sample, result.patches, result.surfaces,
                       result.upright.room_from_map, statistics.point_spacing, context);
     result.labels = label_points(map.cloud, result.sample, result.patches, result.surfaces,
                                  result.openings, {}, context);

@@ -16,7 +16,7 @@ using Eigen::Vector3f;
 
 /// 1 x 1 m in the plane x = 0, its lower corner at y = 0 and z = 1, looking along x.
 UprightWindow window() {
-    return {{Vector3d::UnitX(), 0.0}, Vector3d::UnitY(), Vector3d::UnitZ(), 0.0, 1.0, 1.0, 2.0};
+    return {{Vector3d::UnitX(), 0.0}, Vector3d::UnitY(), Vector3d::UnitZ(), {0.0, 1.0, 1.0, 2.0}};
 }
 
 TEST(RaySample, HasARayForEachFinitePointOfAKnownScanner) {

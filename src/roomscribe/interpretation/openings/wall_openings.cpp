@@ -30,7 +30,6 @@ constexpr double max_door_width = 2.3;
 constexpr double min_door_height = 1.8;
 constexpr double max_door_height = 2.5;
 constexpr double max_leaf_width = 1.3;
-constexpr std::size_t max_rays = 400'000;
 /// m. Thresholds, skirtings and what lies on the floor.
 constexpr double floor_reach = 0.25;
 /// Confidence of a hole like a window's without a sign of glass, until drop_niches().
@@ -72,7 +71,7 @@ struct OpenLeaf {
 
 class OpeningFinder {
   public:
-    OpeningFinder(const ScanMap& map, const SurfaceSample& sample,
+    OpeningFinder(const ScanMap& map, std::span<const Ray> rays, const SurfaceSample& sample,
                   std::span<const PlanarPatch> patches, const RoomSurfaces& surfaces,
                   const Eigen::Matrix3d& room_from_map, double point_spacing)
         : map_(map),
@@ -83,8 +82,7 @@ class OpeningFinder {
           up_(room_from_map.row(2).transpose()),
           // Two points to a cell and side, and no finer than frames are wide.
           cell_size_(std::clamp(2.0 * point_spacing, 0.04, 0.12)),
-          rays_(sample_rays(map, max_rays)),
-          mirror_test_(rays_, sample) {
+          mirror_test_(rays, sample) {
         for (const PlanarPatch& patch : patches_)
             extents_.push_back(is_upright(patch) ? extent_of(patch) : LeafExtent{});
     }
@@ -104,9 +102,9 @@ class OpeningFinder {
         return std::abs(patch.plane.normal.dot(up_)) <= std::sin(radians(8.0));
     }
     bool is_mirror(const WallFace& face, const WallRectangle& hole) const {
-        const UprightWindow window{face.plane, face.along,  up_,     hole.start,
-                                   hole.end,   hole.bottom, hole.top};
-        return mirror_test_.share_of_images(window, max_wall_depth) >= 0.5;
+        constexpr double min_share = 0.5;
+        return mirror_test_.share_of_images({face.plane, face.along, up_, hole}, max_wall_depth) >=
+               min_share;
     }
     LeafExtent extent_of(const PlanarPatch& patch) const;
     void widen_to_hinge(const WallFace& face, WallRectangle& hole) const;
@@ -126,7 +124,6 @@ class OpeningFinder {
     Eigen::Matrix3d room_from_map_;
     Vector3d up_;
     double cell_size_;
-    std::vector<Ray> rays_;
     MirrorTest mirror_test_;
     std::vector<LeafExtent> extents_;  ///< per patch; those of upright ones alone mean something
 };
@@ -399,17 +396,16 @@ void join_panes(std::vector<WallOpening>& openings) {
                std::abs(a.hole.top - b.hole.top) <= slack;
     };
     for (std::size_t i = 0; i < openings.size(); ++i) {
-        const auto other =
-            std::find_if(openings.begin(), openings.end(), [&](const WallOpening& b) {
-                return are_leaves(openings[i], b) &&
-                       b.hole.end - openings[i].hole.start <= max_door_width;
-            });
+        const auto other = std::find_if(openings.begin(), openings.end(), [&](const auto& next) {
+            return are_leaves(openings[i], next) &&
+                   next.hole.end - openings[i].hole.start <= max_door_width;
+        });
         if (other == openings.end()) continue;
         openings[i].hole.end = other->hole.end;
         openings[i].is_pane = false;
-        other->is_pane = false;
+        const bool is_before = other - openings.begin() < static_cast<std::ptrdiff_t>(i);
         openings.erase(other);
-        i = static_cast<std::size_t>(-1);
+        if (is_before) --i;
     }
 }
 
@@ -476,11 +472,11 @@ double merit(const WallOpening& opening) {
 
 }  // namespace
 
-Openings find_openings(const ScanMap& map, const SurfaceSample& sample,
+Openings find_openings(const ScanMap& map, std::span<const Ray> rays, const SurfaceSample& sample,
                        std::span<const PlanarPatch> patches, RoomSurfaces& surfaces,
                        const Eigen::Matrix3d& room_from_map, double point_spacing,
                        const Context& context) {
-    const OpeningFinder finder(map, sample, patches, surfaces, room_from_map, point_spacing);
+    const OpeningFinder finder(map, rays, sample, patches, surfaces, room_from_map, point_spacing);
     std::vector<std::pair<std::size_t, std::size_t>> jobs;
     for (std::size_t storey = 0; storey < surfaces.storeys.size(); ++storey) {
         for (std::size_t face = 0; face < surfaces.storeys[storey].faces.size(); ++face)

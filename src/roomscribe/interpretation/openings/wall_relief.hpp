@@ -6,24 +6,10 @@
 #include <vector>
 
 #include "roomscribe/interpretation/rooms/wall_faces.hpp"
+#include "roomscribe/interpretation/rooms/wall_rectangle.hpp"
 #include "roomscribe/model/scan.hpp"
 
 namespace roomscribe {
-
-/// A rectangle on a wall's face: m along the wall (as WallFace::start) and m along up.
-struct WallRectangle {
-    double start = 0.0;
-    double end = 0.0;
-    double bottom = 0.0;
-    double top = 0.0;
-
-    double width() const { return end - start; }
-    double height() const { return top - bottom; }
-    double area() const { return width() * height(); }
-    WallRectangle grown(double left_right, double below, double above) const {
-        return {start - left_right, end + left_right, bottom - below, top + above};
-    }
-};
 
 /// What was seen at a place of a wall's face: how many rays ended there or went on.
 struct ReliefCell {

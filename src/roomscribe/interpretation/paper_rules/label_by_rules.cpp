@@ -217,9 +217,6 @@ PointLabels RuleLabeller::label_points(const RuleRoom& room, double plane_tolera
             result.confidences[i] = static_cast<float>(component.confidence);
         }
     });
-    for (const std::int32_t instance : result.instances) {
-        if (instance >= 0) ++scene_.components[static_cast<std::size_t>(instance)].evidence.points;
-    }
     return result;
 }
 

@@ -9,8 +9,8 @@
 #include <Eigen/Core>
 
 #include "roomscribe/geometry/point_cloud.hpp"
-#include "roomscribe/interpretation/openings/wall_relief.hpp"
 #include "roomscribe/interpretation/paper_rules/paper_rules_settings.hpp"
+#include "roomscribe/interpretation/rooms/wall_rectangle.hpp"
 #include "roomscribe/structure/planar_patch.hpp"
 
 namespace roomscribe {

@@ -8,6 +8,7 @@
 #include <Eigen/Core>
 
 #include "roomscribe/geometry/plane.hpp"
+#include "roomscribe/interpretation/rooms/wall_rectangle.hpp"
 #include "roomscribe/model/scan.hpp"
 
 namespace roomscribe {
@@ -20,17 +21,14 @@ struct Ray {
 
 /// An even share of the rays of all scanners whose places are known, at most about `max_rays` of
 /// them. Lost returns and points that are not finite have none.
-std::vector<Ray> sample_rays(const ScanMap& map, std::size_t max_rays);
+std::vector<Ray> sample_rays(const ScanMap& map, std::size_t max_rays = 400'000);
 
-/// A rectangle on an upright plane: m along a level direction within it and along up.
+/// A part of an upright plane that rays are aimed at.
 struct UprightWindow {
     Plane plane;
-    Eigen::Vector3d along = Eigen::Vector3d::UnitX();
+    Eigen::Vector3d along = Eigen::Vector3d::UnitX();  ///< level, within the plane
     Eigen::Vector3d up = Eigen::Vector3d::UnitZ();
-    double start = 0.0;
-    double end = 0.0;
-    double bottom = 0.0;
-    double top = 0.0;
+    WallRectangle extent;
 };
 
 /// Calls `visit(ray, behind)` for each ray that meets the rectangle from the side its normal looks
@@ -49,7 +47,8 @@ void visit_rays(std::span<const Ray> rays, const UprightWindow& window, Visit&& 
             ray.origin + before / (before + behind) * (ray.end - ray.origin);
         const auto x = static_cast<double>(along.dot(place));
         const auto z = static_cast<double>(up.dot(place));
-        if (x < window.start || x > window.end || z < window.bottom || z > window.top) continue;
+        const WallRectangle& extent = window.extent;
+        if (x < extent.start || x > extent.end || z < extent.bottom || z > extent.top) continue;
         visit(ray, behind);
     }
 }

@@ -322,7 +322,7 @@ Transform place_room(const SurfaceSample& sample, std::span<const PlanarPatch> p
 
 }  // namespace
 
-RoomSurfaces find_room_surfaces(const ScanMap& map, const SurfaceSample& sample,
+RoomSurfaces find_room_surfaces(std::span<const Ray> rays, const SurfaceSample& sample,
                                 std::span<const PlanarPatch> patches, const Upright& upright,
                                 const RoomSurfacesSettings& settings, const Context& context) {
     check_settings(settings);
@@ -334,8 +334,6 @@ RoomSurfaces find_room_surfaces(const ScanMap& map, const SurfaceSample& sample,
         std::erase_if(storey.sloping_ceilings,
                       [&](std::uint32_t patch) { return !is_topmost(sample, patches[patch], up); });
     }
-    constexpr std::size_t max_rays = 400'000;
-    const std::vector<Ray> rays = sample_rays(map, max_rays);
     SurfaceBuilder builder(sample, patches, upright);
     constexpr double infinity = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < storeys.size(); ++i) {

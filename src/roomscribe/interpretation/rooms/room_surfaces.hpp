@@ -57,7 +57,7 @@ struct RoomSurfaces {
 /// `component.polygon` is the room's outline for a floor or ceiling, and the rectangle from floor
 /// to ceiling of a wall (to the end of what was seen, where there is no floor or ceiling). Nothing
 /// found gives an empty table.
-RoomSurfaces find_room_surfaces(const ScanMap& map, const SurfaceSample& sample,
+RoomSurfaces find_room_surfaces(std::span<const Ray> rays, const SurfaceSample& sample,
                                 std::span<const PlanarPatch> patches, const Upright& upright,
                                 const RoomSurfacesSettings& settings = {},
                                 const Context& context = {});

@@ -199,10 +199,11 @@ bool FaceFinder::is_passed_over(const WallFace& face) const {
     constexpr double lintel = 0.3;  // m, of what is looked at where no ceiling tells
     constexpr std::size_t min_rays = 8;
     const PlanRoom& room = plan_.rooms[static_cast<std::size_t>(face.room)];
-    UprightWindow above{face.plane, face.along, up_, face.start, face.end, face.top + margin, 0.0};
+    WallRectangle above{face.start, face.end, face.top + margin, 0.0};
     above.top = room.lowest_ceiling ? *room.lowest_ceiling - margin : above.bottom + lintel;
-    if (above.top - above.bottom < margin) return false;
-    const RayCount count = count_rays(rays_, above, 2.0 * sample_.tolerance);
+    if (above.height() < margin) return false;
+    const RayCount count =
+        count_rays(rays_, {face.plane, face.along, up_, above}, 2.0 * sample_.tolerance);
     return count.passed >= min_rays && count.passed >= count.ended;
 }
 
