@@ -80,10 +80,10 @@ void add_backs(const FurnitureVoxels& all, const RoomSurfaces& surfaces,
     }
 }
 
-/// Makes the components of pieces and their faces.
 /// A piece that is more likely none, or another's part, is not listed.
 constexpr double min_confidence = 0.5;
 
+/// Makes the components of pieces and their faces.
 class FurnitureBuilder {
   public:
     FurnitureBuilder(const FurnitureVoxels& all, std::span<const LevelSlab> slabs,
@@ -118,6 +118,7 @@ class FurnitureBuilder {
         result.components.push_back(std::move(piece));
         add_top(draft, verdict, id, result);
         const Eigen::Vector3d off_wall(form.off_wall.x(), form.off_wall.y(), 0.0);
+        if (!has_fronts(verdict.kind)) return;
         auto side =
             find_front_side(all_, draft, form, patches_, axes_, axes_.transpose() * off_wall);
         if (!side) return;
@@ -138,7 +139,6 @@ class FurnitureBuilder {
             face.polygon = {corner(extent.start, extent.bottom), corner(extent.end, extent.bottom),
                             corner(extent.end, extent.top), corner(extent.start, extent.top)};
             face.evidence.rule = "upright front of a closed piece";
-            face.evidence.points = panel.points;
             face.evidence.rms = panel.rms;
             if (panel.may_be_several) {
                 face.verdict = Verdict::doubtful;
@@ -239,15 +239,6 @@ class FurnitureBuilder {
     std::vector<FrontSide> sides_;
 };
 
-void count_points(const SurfaceSample& sample, std::span<const Label> labels, Furniture& result) {
-    for (std::size_t i = 0; i < labels.size(); ++i) {
-        const std::uint32_t voxel = sample.voxel_of_point[i];
-        if (voxel == no_voxel || labels[i] != Label::unknown) continue;
-        const std::int32_t number = result.component_of_voxel[voxel];
-        if (number >= 0) ++result.components[static_cast<std::size_t>(number)].evidence.points;
-    }
-}
-
 /// The surfaces of Algorithm 5 as components: level ones are tables and other tops, upright ones
 /// faces of furniture.
 Furniture find_surfaces_of_paper(const ScanMap& map, const SurfaceSample& sample,
@@ -309,10 +300,8 @@ Furniture find_surfaces_of_paper(const ScanMap& map, const SurfaceSample& sample
         if (voxel == no_voxel || surface_of_point[voxel] < 0) continue;
         const std::int32_t surface = surface_of_point[voxel];
         result.component_of_voxel[voxels[i]] = surface;
-        Component& component = result.components[static_cast<std::size_t>(surface)];
-        ++component.evidence.points;
         const FurnitureVoxel& some = *voxel_of_sample[voxels[i]];
-        component.parent =
+        result.components[static_cast<std::size_t>(surface)].parent =
             surfaces.storeys[some.storey].room_ids[static_cast<std::size_t>(some.room)];
     }
     return result;
@@ -348,7 +337,6 @@ Furniture find_furniture(const ScanMap& map, const SurfaceSample& sample,
         if (!draft.voxels.empty()) builder.add(draft, result);
     }
     builder.add_fronts(map.cloud, sample, result);
-    count_points(sample, labels, result);
     return result;
 }
 

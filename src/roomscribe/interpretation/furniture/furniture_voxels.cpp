@@ -213,4 +213,13 @@ std::vector<std::vector<std::uint32_t>> connected_voxels(const FurnitureVoxels& 
     return sets;
 }
 
+std::vector<Eigen::Vector2d> places_of(const FurnitureVoxels& all,
+                                       std::span<const std::uint32_t> members) {
+    std::vector<Eigen::Vector2d> places;
+    places.reserve(members.size());
+    for (const std::uint32_t i : members)
+        places.emplace_back(all.voxels[i].place.head<2>());
+    return places;
+}
+
 }  // namespace roomscribe

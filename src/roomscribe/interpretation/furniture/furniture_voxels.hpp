@@ -64,4 +64,8 @@ std::vector<std::vector<std::uint32_t>> connected_voxels(const FurnitureVoxels& 
                                                          std::span<const std::uint32_t> candidates,
                                                          std::vector<bool>& belongs);
 
+/// Where they lie as seen from above.
+std::vector<Eigen::Vector2d> places_of(const FurnitureVoxels& all,
+                                       std::span<const std::uint32_t> members);
+
 }  // namespace roomscribe

@@ -34,15 +34,6 @@ constexpr double max_shadow = 0.6;
 /// Share of the rectangle around two pieces of a top that they have to fill.
 constexpr double min_joint_fill = 0.6;
 
-std::vector<Eigen::Vector2d> places_of(const FurnitureVoxels& all,
-                                       std::span<const std::uint32_t> members) {
-    std::vector<Eigen::Vector2d> places;
-    places.reserve(members.size());
-    for (const std::uint32_t i : members)
-        places.emplace_back(all.voxels[i].place.head<2>());
-    return places;
-}
-
 /// Of what was seen sparsely, squares of twice the voxel's edge count.
 double area_of(const FurnitureVoxels& all, std::span<const std::uint32_t> members,
                double voxel_size) {

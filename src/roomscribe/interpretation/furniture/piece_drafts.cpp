@@ -342,14 +342,6 @@ std::vector<std::vector<std::uint32_t>> find_clusters(const FurnitureVoxels& all
     return clusters;
 }
 
-std::vector<Eigen::Vector2d> places_of(const FurnitureVoxels& all,
-                                       std::span<const std::uint32_t> members) {
-    std::vector<Eigen::Vector2d> places;
-    for (const std::uint32_t i : members)
-        places.emplace_back(all.voxels[i].place.head<2>());
-    return places;
-}
-
 /// Sides, open doors and drawers' fronts: thin, beside a piece and no taller.
 bool is_panel_of(const FurnitureVoxels& all, std::span<const std::uint32_t> rest,
                  const PlanRectangle& rectangle, double top, std::span<const std::size_t> groups,

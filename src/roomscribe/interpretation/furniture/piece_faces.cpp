@@ -169,13 +169,6 @@ WallRectangle extent_of(std::span<const SidePoint> points, double tolerance) {
     return {at(along, strays), at(along, 1.0 - strays), at(above, strays), at(above, 1.0 - strays)};
 }
 
-bool has_fronts(std::string_view kind) {
-    constexpr std::array<std::string_view, 9> closed{"cabinet",     "base_unit",  "wall_unit",
-                                                     "drawer_unit", "nightstand", "tv_unit",
-                                                     "wardrobe",    "fridge",     "counter"};
-    return std::find(closed.begin(), closed.end(), kind) != closed.end();
-}
-
 }  // namespace
 
 std::optional<FrontSide> find_front_side(const FurnitureVoxels& all, const PieceDraft& draft,
@@ -183,7 +176,6 @@ std::optional<FrontSide> find_front_side(const FurnitureVoxels& all, const Piece
                                          std::span<const PlanarPatch> patches,
                                          const Eigen::Matrix3d& room_from_map,
                                          const Eigen::Vector3d& to_room) {
-    if (!has_fronts(judge_piece(form).kind)) return std::nullopt;
     const Eigen::Vector3d up = room_from_map.row(2).transpose();
     const Eigen::Vector2d center = form.rectangle.center;
     std::map<std::uint32_t, std::size_t> size_of_patch;
@@ -256,14 +248,6 @@ std::vector<FrontPanel> find_front_panels(const PointCloud& map, const SurfaceSa
             panel.side = s;
             panel.extent = part;
             panel.rms = noise;
-            for (const SidePoint& point : points[s]) {
-                const double along = static_cast<double>(point.along);
-                const double above = static_cast<double>(point.above);
-                panel.points += along >= part.start && along <= part.end && above >= part.bottom &&
-                                        above <= part.top
-                                    ? 1U
-                                    : 0U;
-            }
             const bool is_drawer =
                 part.height() <= max_drawer_height && part.width() >= 0.8 * part.height();
             panel.may_be_several =

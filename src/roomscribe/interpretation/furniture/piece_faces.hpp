@@ -16,7 +16,7 @@
 #include "roomscribe/interpretation/furniture/level_slabs.hpp"
 #include "roomscribe/interpretation/furniture/piece_drafts.hpp"
 #include "roomscribe/interpretation/furniture/piece_kinds.hpp"
-#include "roomscribe/interpretation/openings/wall_relief.hpp"
+#include "roomscribe/interpretation/rooms/wall_rectangle.hpp"
 #include "roomscribe/structure/planar_patch.hpp"
 #include "roomscribe/structure/surface_sample.hpp"
 
@@ -32,16 +32,15 @@ struct FrontSide {
 
 /// A door, a drawer front, or several that no gap was seen between.
 struct FrontPanel {
-    std::size_t side = 0;  ///< of the front sides
-    WallRectangle extent;  ///< m along `along` and along up
-    double rms = 0.0;      ///< m, of the side's points about its plane
-    std::uint64_t points = 0;
+    std::size_t side = 0;   ///< of the front sides
+    WallRectangle extent;   ///< m along `along` and along up
+    double rms = 0.0;       ///< m, of the side's points about its plane
     std::string_view kind;  ///< "door", "drawer", or "front" for what may be several
     bool may_be_several = false;
 };
 
-/// The front of a closed piece: the largest upright patch among those that look away from the wall
-/// that it stands at (of a free-standing one, any). Nothing for open ones.
+/// The front of a piece that has_fronts: the largest upright patch among those that look away from
+/// the wall that it stands at (of a free-standing one, any). Nothing if there is none.
 std::optional<FrontSide> find_front_side(const FurnitureVoxels& all, const PieceDraft& draft,
                                          const PieceForm& form,
                                          std::span<const PlanarPatch> patches,

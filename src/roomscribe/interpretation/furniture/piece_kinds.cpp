@@ -2,6 +2,7 @@
 #include "roomscribe/interpretation/furniture/piece_kinds.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -301,6 +302,13 @@ PieceVerdict judge_piece(const PieceForm& form) {
         return is_seat ? judge_seat(form) : judge_low(form);
     }
     return judge_table(form);
+}
+
+bool has_fronts(std::string_view kind) {
+    constexpr std::array<std::string_view, 9> closed{"cabinet",     "base_unit",  "wall_unit",
+                                                     "drawer_unit", "nightstand", "tv_unit",
+                                                     "wardrobe",    "fridge",     "counter"};
+    return std::find(closed.begin(), closed.end(), kind) != closed.end();
 }
 
 }  // namespace roomscribe

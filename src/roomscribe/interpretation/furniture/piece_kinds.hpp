@@ -49,4 +49,7 @@ struct PieceVerdict {
 /// Kind by sizes from furnishing practice (docs/furniture.md).
 PieceVerdict judge_piece(const PieceForm& form);
 
+/// Whether pieces of a kind are closed by doors or drawers.
+bool has_fronts(std::string_view kind);
+
 }  // namespace roomscribe

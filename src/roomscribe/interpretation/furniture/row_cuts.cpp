@@ -69,9 +69,7 @@ double step_at(const std::vector<double>& line, std::size_t bin, std::size_t win
 
 std::vector<std::vector<std::uint32_t>> cut_row(const FurnitureVoxels& all,
                                                 std::span<const std::uint32_t> members) {
-    std::vector<Eigen::Vector2d> places;
-    for (const std::uint32_t i : members)
-        places.emplace_back(all.voxels[i].place.head<2>());
+    const std::vector<Eigen::Vector2d> places = places_of(all, members);
     const PlanRectangle rectangle = smallest_rectangle(places);
     std::vector<std::vector<std::uint32_t>> parts;
     parts.emplace_back(members.begin(), members.end());

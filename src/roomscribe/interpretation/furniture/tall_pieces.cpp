@@ -72,13 +72,6 @@ std::vector<std::uint32_t> find_tall_voxels(const FurnitureVoxels& all) {
     return tall;
 }
 
-PlanRectangle rectangle_around(const FurnitureVoxels& all, std::span<const std::uint32_t> members) {
-    std::vector<Eigen::Vector2d> places;
-    for (const std::uint32_t i : members)
-        places.emplace_back(all.voxels[i].place.head<2>());
-    return smallest_rectangle(places);
-}
-
 bool are_together(const FurnitureVoxel& a, const FurnitureVoxel& b) {
     return a.storey == b.storey && a.room == b.room;
 }
@@ -92,7 +85,7 @@ struct TallBox {
 
 TallBox make_box(const FurnitureVoxels& all, std::vector<std::uint32_t> members) {
     TallBox box;
-    box.rectangle = rectangle_around(all, members);
+    box.rectangle = smallest_rectangle(places_of(all, members));
     for (const std::uint32_t i : members)
         box.top = std::max(box.top, all.voxels[i].height);
     box.voxels = std::move(members);

@@ -31,17 +31,10 @@ struct RowPart {
     double height = 0.0;
 };
 
-std::vector<Eigen::Vector2d> places_of(const FurnitureVoxels& all, const PieceDraft& draft) {
-    std::vector<Eigen::Vector2d> places;
-    for (const std::uint32_t i : draft.voxels)
-        places.emplace_back(all.voxels[i].place.head<2>());
-    return places;
-}
-
 RowPart measure(const FurnitureVoxels& all, std::span<const LevelSlab> slabs,
                 const std::vector<PieceDraft>& drafts, std::size_t number) {
     const PieceDraft& draft = drafts[number];
-    RowPart part{number, smallest_rectangle(places_of(all, draft)), 0.0};
+    RowPart part{number, smallest_rectangle(places_of(all, draft.voxels)), 0.0};
     std::vector<double> heights;
     for (const std::uint32_t i : draft.voxels)
         heights.push_back(all.voxels[i].height);
@@ -57,8 +50,8 @@ bool are_one_row(const FurnitureVoxels& all, const std::vector<PieceDraft>& draf
     const FurnitureVoxel& some_b = all.voxels[of_b.voxels.front()];
     if (some_a.storey != some_b.storey || some_a.room != some_b.room) return false;
     if (std::abs(a.height - b.height) > max_step) return false;
-    std::vector<Eigen::Vector2d> places = places_of(all, of_a);
-    const std::vector<Eigen::Vector2d> others = places_of(all, of_b);
+    std::vector<Eigen::Vector2d> places = places_of(all, of_a.voxels);
+    const std::vector<Eigen::Vector2d> others = places_of(all, of_b.voxels);
     places.insert(places.end(), others.begin(), others.end());
     const PlanRectangle both = smallest_rectangle(places);
     const double width = std::max(a.rectangle.width, b.rectangle.width);
