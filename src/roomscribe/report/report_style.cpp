@@ -34,7 +34,7 @@ h2 { margin: 4.5rem 0 1.25rem; font-size: 1.4rem; line-height: 1.25; font-weight
   letter-spacing: -.01em; }
 .lead { margin: 0; max-width: 46rem; font-size: 1.15rem; line-height: 1.55; color: var(--soft); }
 .note { margin: 0 0 1rem; max-width: 46rem; color: var(--soft); }
-.figures { display: grid; grid-template-columns: repeat(auto-fit, minmax(7.6rem, 1fr));
+.figures { display: flex; flex-wrap: wrap; justify-content: space-between;
   gap: 1.75rem 1.5rem; margin: 2.75rem 0 0; padding: 1.75rem 0 0; border-top: 1px solid var(--line); }
 .figures div { display: flex; flex-direction: column-reverse; justify-content: flex-end; }
 .figures dt { font-size: .85rem; color: var(--soft); }
@@ -124,7 +124,7 @@ footer { margin-top: 4.5rem; padding-top: 1.25rem; border-top: 1px solid var(--l
   body { padding: 2.25rem 1.1rem 3rem; }
   h1 { font-size: 1.75rem; }
   h2 { margin-top: 3.25rem; }
-  .figures { grid-template-columns: 1fr 1fr; gap: 1.25rem 1.25rem; margin-top: 2rem; }
+  .figures { display: grid; grid-template-columns: 1fr 1fr; gap: 1.25rem 1.25rem; margin-top: 2rem; }
   .figures dd { font-size: 1.35rem; }
   .plot { max-width: none; }
   .frame { margin-left: 1.7rem; }
