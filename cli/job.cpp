@@ -87,12 +87,19 @@ std::optional<EvaluationSummary> score(const JobOptions& options,
     return summarize({&evaluation, 1});
 }
 
-/// Returns where the report lies.
+/// Maps that could not be joined to the first have folders of their own in its folder. Returns
+/// where the report lies.
 std::filesystem::path write_results(const std::filesystem::path& folder,
-                                    const Reconstruction& reconstruction,
-                                    std::span<const Scan> scans, const ReportInfo& info,
+                                    const Reconstruction& reconstruction, const ReportInfo& info,
                                     const Context& context) {
-    if (reconstruction.registration) write_registration(folder, reconstruction, scans, context);
+    for (std::size_t i = 0; i < reconstruction.apart.size(); ++i) {
+        const std::filesystem::path own = folder / folder_of_apart(i);
+        prepare_output_folder(own);
+        ReportInfo own_info{.title = info.title, .run = info.run, .score = {}};
+        write_results(own, reconstruction.apart[i], own_info, context);
+    }
+    remove_apart_from(folder, reconstruction.apart.size());
+    if (reconstruction.registration) write_registration(folder, reconstruction, context);
     if (!reconstruction.labels.labels.empty()) {
         write_interpretation(folder, reconstruction, context);
     }
@@ -174,7 +181,7 @@ ExitCode run_job(std::string_view verb, const JobOptions& options, const std::at
         context.throw_if_cancelled();
         note_unit(summary, reconstruction);
         info.score = summary.score = score(options, reconstruction, context);
-        summary.report = write_results(output.path(), reconstruction, scans, info, context);
+        summary.report = write_results(output.path(), reconstruction, info, context);
     }
     summary.seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

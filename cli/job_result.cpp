@@ -13,6 +13,7 @@
 #include "cli/text_table.hpp"
 #include "roomscribe/core/units.hpp"
 #include "roomscribe/evaluation/results_table.hpp"
+#include "roomscribe/pipeline/workspace.hpp"
 
 namespace roomscribe::cli {
 namespace {
@@ -98,9 +99,20 @@ std::optional<double> overlap_of(const Reconstruction& reconstruction, std::size
     return registration->overlaps[scan];
 }
 
+/// Number of the set of scans, from 1, that a scan is joined to; 1 is the map.
+std::size_t set_of(const Registration& registration, std::size_t scan) {
+    const auto& sets = registration.components;
+    const auto set = std::find_if(sets.begin(), sets.end(), [scan](const auto& scans) {
+        return std::find(scans.begin(), scans.end(), scan) != scans.end();
+    });
+    return static_cast<std::size_t>(set - sets.begin()) + 1;
+}
+
 std::string place_of(const Reconstruction& reconstruction, std::size_t scan) {
-    if (!is_placed(reconstruction, scan)) return "no";
     const auto& registration = reconstruction.registration;
+    if (!is_placed(reconstruction, scan)) {
+        return registration ? fmt::format("in set {}", set_of(*registration, scan)) : "no";
+    }
     const bool is_doubtful =
         registration && scan < registration->is_doubtful.size() && registration->is_doubtful[scan];
     return is_doubtful ? "in doubt" : "yes";
@@ -240,8 +252,9 @@ std::string result_tables(const Reconstruction& reconstruction, const JobSummary
     }
     if (reconstruction.registration && reconstruction.registration->components.size() > 1) {
         text += fmt::format(
-            "\nthe scans fall into {} sets that no link joins; one of them is the map\n",
-            reconstruction.registration->components.size());
+            "\nthe scans fall into {} sets that no link joins: set 1 is the map, each of the others "
+            "has a folder of its own, {} and so on\n",
+            reconstruction.registration->components.size(), folder_of_apart(0));
     }
     if (is_interpreted(reconstruction)) {
         text +=

@@ -61,7 +61,7 @@ struct SmallScene {
     void write(const TemporaryFolder& folder) const {
         write_truth_folder(folder / "truth", truth, scans);
         prepare_output_folder(folder / "result");
-        write_registration(folder / "result", result, scans);
+        write_registration(folder / "result", result);
         write_interpretation(folder / "result", result);
     }
 };

@@ -56,18 +56,20 @@ struct RegistrationLink {
 /// Scans in one frame: that of the first scan of the largest connected set, or that of known poses
 /// that were kept.
 struct Registration {
-    /// Per scan; empty for a scan that no chain of accepted or ambiguous links leads to.
+    /// Per scan; empty for a scan that no chain of links leads to.
     std::vector<std::optional<Transform>> map_from_scan;
-    /// Per scan, of map_from_scan as in RegistrationLink: its variance along a direction that no
-    /// link holds is that of knowing nothing, 1e6 (rad2 or m2). Zero for a scan that defines the
-    /// frame or has no place.
+    /// Per scan that has no place in the map: its pose in the frame of its component's first scan.
+    /// Empty for the scans of the map.
+    std::vector<std::optional<Transform>> apart_from_scan;
+    /// Per scan, of its pose, as in RegistrationLink: its variance along a direction that no link
+    /// holds is that of knowing nothing, 1e6 (rad2 or m2). Zero for a scan that defines a frame.
     std::vector<Eigen::Matrix<double, 6, 6>> covariances;
-    /// Per scan: it has a place, but only by way of an ambiguous link.
+    /// Per scan: it has its pose only by way of an ambiguous link.
     std::vector<bool> is_doubtful;
     std::vector<RegistrationLink> links;
-    /// Scans that accepted and ambiguous links join, ascending; the largest set comes first, then
-    /// the others by their first scan. More than one: there are several maps, and only the first of
-    /// them has poses (the others have their links).
+    /// Scans that links join, ascending; the largest set comes first, then the others by their
+    /// first scan. More than one: there are several maps, and nobody knows how they lie to each
+    /// other.
     std::vector<std::vector<std::size_t>> components;
     std::vector<double> residuals;  ///< m per scan: RMSE over its links, NaN where it has none
     std::vector<double> overlaps;   ///< per scan: the largest over its links, 0 where it has none

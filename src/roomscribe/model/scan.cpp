@@ -65,7 +65,8 @@ ScanMap merge_scans(std::span<const Scan> scans,
     for (std::size_t i = 0; i < scans.size(); ++i) {
         const Scan& scan = scans[i];
         MapSection section{scan.name, static_cast<std::uint32_t>(map.cloud.size()),
-                           static_cast<std::uint32_t>(scan.cloud.size()), std::nullopt};
+                           static_cast<std::uint32_t>(scan.cloud.size()), std::nullopt,
+                           scan.cloud.global_shift};
         PointCloud placed = scan.cloud;
         if (map_from_scan[i]) {
             transform_in_place(placed, *map_from_scan[i]);
@@ -90,7 +91,7 @@ ScanMap merge_scans(std::span<const Scan> scans,
 ScanMap map_of_cloud(Scan scan) {
     ScanMap map;
     MapSection section{std::move(scan.name), 0, static_cast<std::uint32_t>(scan.cloud.size()),
-                       std::nullopt};
+                       std::nullopt, scan.cloud.global_shift};
     if (scan.cloud.sensor_pose) section.sensor_position = scan.sensor_position();
     map.cloud = std::move(scan.cloud);
     map.sections.push_back(std::move(section));

@@ -31,6 +31,7 @@ struct MapSection {
     std::uint32_t count = 0;
     /// Scanner position in the map frame, if known. Unknown for a cloud that was merged before.
     std::optional<Eigen::Vector3d> sensor_position;
+    Eigen::Vector3d scan_shift = Eigen::Vector3d::Zero();  ///< global_shift of the scan itself
 };
 
 /// All scans in one frame, one after another in input order: every point of every scan, NaN too.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <numeric>
 #include <utility>
 
 #include "roomscribe/interpretation/component_support.hpp"
@@ -242,6 +243,48 @@ void interpret_as_paper(Reconstruction& reconstruction, const ScanMap& map,
              : "three times the noise and the evenness of finished walls"});
 }
 
+/// The scans `chosen` of a registration, which their links join, as a map of their own.
+Reconstruction map_apart(std::span<const Scan> scans, const Registration& whole,
+                         std::span<const std::size_t> chosen) {
+    Reconstruction apart;
+    Registration& part = apart.registration.emplace();
+    std::vector<std::size_t> number_of(scans.size(), scans.size());
+    std::vector<Scan> own;
+    for (std::size_t i = 0; i < chosen.size(); ++i) {
+        const std::size_t scan = chosen[i];
+        number_of[scan] = i;
+        own.push_back(scans[scan]);
+        part.map_from_scan.push_back(whole.apart_from_scan[scan]);
+        part.apart_from_scan.emplace_back();
+        part.covariances.push_back(whole.covariances[scan]);
+        part.is_doubtful.push_back(whole.is_doubtful[scan]);
+        part.residuals.push_back(whole.residuals[scan]);
+        part.overlaps.push_back(whole.overlaps[scan]);
+    }
+    for (RegistrationLink link : whole.links) {
+        link.source = number_of[link.source];
+        link.target = number_of[link.target];
+        if (std::max(link.source, link.target) < chosen.size()) part.links.push_back(link);
+    }
+    part.components.emplace_back(chosen.size());
+    std::iota(part.components[0].begin(), part.components[0].end(), std::size_t{0});
+    apart.map = merge_scans(own, part.map_from_scan);
+    return apart;
+}
+
+/// Points without a place keep the labels that they have in their own map.
+void take_labels(const Reconstruction& apart, std::span<const std::size_t> scans,
+                 Reconstruction& result) {
+    for (std::size_t i = 0; i < scans.size(); ++i) {
+        const MapSection& from = apart.map.sections[i];
+        const MapSection& to = result.map.sections[scans[i]];
+        std::copy_n(apart.labels.labels.begin() + from.first, from.count,
+                    result.labels.labels.begin() + to.first);
+        std::copy_n(apart.labels.confidences.begin() + from.first, from.count,
+                    result.labels.confidences.begin() + to.first);
+    }
+}
+
 }  // namespace
 
 Reconstruction register_to_map(std::span<const Scan> scans, const PipelineSettings& settings,
@@ -253,10 +296,13 @@ Reconstruction register_to_map(std::span<const Scan> scans, const PipelineSettin
     ScanRegistration registration =
         register_scans(scans, known_poses, seed_of(settings), settings.registration, context);
     timer.finish("register");
-    result.map = merge_scans(scans, registration.registration.map_from_scan);
+    result.registration = std::move(registration.registration);
+    result.map = merge_scans(scans, result.registration->map_from_scan);
+    const auto& components = result.registration->components;
+    for (std::size_t i = 1; i < components.size(); ++i)
+        result.apart.push_back(map_apart(scans, *result.registration, components[i]));
     timer.finish("merge");
 
-    result.registration = std::move(registration.registration);
     result.derived_values = std::move(registration.derived_values);
     return result;
 }
@@ -279,6 +325,10 @@ Reconstruction reconstruct(std::span<const Scan> scans, const PipelineSettings& 
                            const Context& context, KnownPoses known_poses) {
     Reconstruction result = register_to_map(scans, settings, context, known_poses);
     interpret_map(result, settings, context);
+    for (std::size_t i = 0; i < result.apart.size(); ++i) {
+        interpret_map(result.apart[i], settings, context);
+        take_labels(result.apart[i], result.registration->components[i + 1], result);
+    }
     return result;
 }
 

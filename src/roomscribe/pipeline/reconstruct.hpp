@@ -16,6 +16,8 @@
 namespace roomscribe {
 
 /// Everything that a run finds out. `registration` is empty for a map that came registered.
+/// `apart` holds a reconstruction per further component of the registration: scans that hang
+/// together, but nobody knows where in the map.
 struct Reconstruction {
     std::optional<Registration> registration;
     ScanMap map;
@@ -23,13 +25,15 @@ struct Reconstruction {
     PointLabels labels;
     std::vector<DerivedValue> derived_values;
     std::vector<StageCost> stage_costs;
+    std::vector<Reconstruction> apart;
 };
 
 /// Poses that are known of scans: none, or one entry per scan, empty where nothing is known.
 using KnownPoses = std::span<const std::optional<Transform>>;
 
-/// Scans as the scanner left them -> one map. Its frame is the first scan's, or that of known poses
-/// that are kept (registration.known_poses).
+/// Scans as the scanner left them -> one map, and further ones of scans that could not be joined to
+/// it. A map's frame is its first scan's, or that of known poses that are kept
+/// (registration.known_poses).
 /// Throws InvalidArgument if there are no scans, or another number of known poses.
 Reconstruction register_to_map(std::span<const Scan> scans, const PipelineSettings& settings = {},
                                const Context& context = {}, KnownPoses known_poses = {});
@@ -38,7 +42,8 @@ Reconstruction register_to_map(std::span<const Scan> scans, const PipelineSettin
 void interpret_map(Reconstruction& reconstruction, const PipelineSettings& settings = {},
                    const Context& context = {});
 
-/// The whole job: register_to_map, then interpret_map.
+/// The whole job: register_to_map, then interpret_map of each map. Points of the map's scans that
+/// have no place in it get the labels that they have in their own map, of no instance here.
 Reconstruction reconstruct(std::span<const Scan> scans, const PipelineSettings& settings = {},
                            const Context& context = {}, KnownPoses known_poses = {});
 

@@ -93,22 +93,33 @@ void prepare_output_folder(const std::filesystem::path& folder) {
     const AtomicFile trial(folder / "run.json", "JSON");
 }
 
+std::string folder_of_apart(std::size_t i) {
+    return fmt::format("set-{}", i + 2);
+}
+
+void remove_apart_from(const std::filesystem::path& folder, std::size_t count) {
+    // Whatever else has such a name is not ours.
+    for (std::size_t i = count; exists(folder / folder_of_apart(i) / "run.json"); ++i)
+        remove_all(folder / folder_of_apart(i));
+}
+
 void write_registration(const std::filesystem::path& folder, const Reconstruction& reconstruction,
-                        std::span<const Scan> scans, const Context& context) {
+                        const Context& context) {
+    const std::vector<MapSection>& sections = reconstruction.map.sections;
     const std::size_t num_poses =
         reconstruction.registration ? reconstruction.registration->map_from_scan.size() : 0;
-    if (num_poses != scans.size()) {
-        throw InvalidArgument("scans", fmt::format("{} scans", scans.size()),
-                              fmt::format("the {} that were registered", num_poses));
+    if (num_poses != sections.size()) {
+        throw InvalidArgument("registration", fmt::format("{} poses", num_poses),
+                              fmt::format("one per scan of the map, {}", sections.size()));
     }
     const Registration& registration = *reconstruction.registration;
     const PointCloud& map = reconstruction.map.cloud;
     std::vector<std::string> names;
     std::vector<std::optional<Transform>> poses = registration.map_from_scan;
-    for (std::size_t i = 0; i < scans.size(); ++i) {
-        names.push_back(scans[i].name);
+    for (std::size_t i = 0; i < sections.size(); ++i) {
+        names.push_back(sections[i].name);
         if (!poses[i]) continue;
-        poses[i] = in_file_coordinates(*poses[i], map.global_shift, scans[i].cloud.global_shift);
+        poses[i] = in_file_coordinates(*poses[i], map.global_shift, sections[i].scan_shift);
     }
     write_poses(folder / "poses.txt", poses);
     write_file(folder / "registration.json", "JSON", registration_to_json(registration, names));

@@ -37,15 +37,22 @@ InputFile describe_input(const std::filesystem::path& path);
 /// the work starts, so that a long run does not end without a place for its result. Throws IoError.
 void prepare_output_folder(const std::filesystem::path& folder);
 
+/// Where in a result's folder the i-th map of `Reconstruction::apart` has its own: "set-2" is the
+/// first, for the map itself is set 1.
+std::string folder_of_apart(std::size_t i);
+
+/// Removes the folders of maps apart that an earlier run left in `folder`, from the `count`-th on.
+void remove_apart_from(const std::filesystem::path& folder, std::size_t count);
+
 // Each of the following writes into an existing folder the files of docs/formats.md, every one
 // under a temporary name that is then renamed: a killed run leaves whole files or none. All
 // coordinates in files are file coordinates, global shifts included. They throw IoError if a file
 // cannot be written.
 
-/// poses.txt, registration.json and map.ply. `scans` are those that the map was made of.
-/// Preconditions: reconstruction.registration holds, with one pose slot per scan.
+/// poses.txt, registration.json and map.ply. Precondition: reconstruction.registration holds, with
+/// one pose slot per section of the map.
 void write_registration(const std::filesystem::path& folder, const Reconstruction& reconstruction,
-                        std::span<const Scan> scans, const Context& context = {});
+                        const Context& context = {});
 
 /// labels.ply and scene.json. Precondition: labels are given for every point of the map.
 void write_interpretation(const std::filesystem::path& folder, const Reconstruction& reconstruction,

@@ -266,7 +266,8 @@ ScanRegistration register_scans(std::span<const Scan> scans,
     }
     result.registration = place_scans(
         std::move(links), scans.size(), describe_known(known_world_from_scan, as_given, settings),
-        settings.known_poses, scale.noise, settings.optimization, context);
+        settings.known_poses, scale.noise, is_graph ? min_probability_to_place : 0.0,
+        settings.optimization, context);
     return result;
 }
 

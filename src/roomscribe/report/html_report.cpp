@@ -135,7 +135,7 @@ std::vector<std::string> things_to_check(const Reconstruction& reconstruction) {
         const Registration& registration = *reconstruction.registration;
         if (registration.components.size() > 1) {
             checks.push_back(fmt::format(
-                "The scans fall into {} sets that no link joins: only one of them is the map.",
+                "The scans fall into {} sets that no link joins: the largest is this map.",
                 registration.components.size()));
         }
         for (std::size_t i = 0; i < registration.map_from_scan.size(); ++i) {
@@ -183,6 +183,22 @@ std::string check_list(const Reconstruction& reconstruction) {
     return html + "</ul></section>\n";
 }
 
+/// The reports of the scans that could not be joined to this map.
+std::string maps_apart(const Reconstruction& reconstruction) {
+    if (reconstruction.apart.empty()) return {};
+    std::string html = "<p>Scans that could not be joined to this map are maps of their own:</p><ul>\n";
+    for (std::size_t i = 0; i < reconstruction.apart.size(); ++i) {
+        const std::string folder = folder_of_apart(i);
+        const auto& sections = reconstruction.apart[i].map.sections;
+        std::string names;
+        for (const MapSection& section : sections)
+            names += (names.empty() ? "" : ", ") + section.name;
+        html += fmt::format("<li><a href=\"{0}/report.html\">{0}</a>: {1}</li>\n", folder,
+                            escape_html(names));
+    }
+    return html + "</ul>\n";
+}
+
 /// A headed section, or nothing if its content is empty.
 std::string section(std::string_view title, const std::string& content) {
     if (content.empty()) return {};
@@ -221,6 +237,7 @@ std::string render_html_report(const Reconstruction& reconstruction, const Repor
         title, report_style(), title, lead(reconstruction));
     html += key_figures(reconstruction);
     html += check_list(reconstruction);
+    html += section("Other maps", maps_apart(reconstruction));
     html += section("Pictures", pictures(reconstruction, info.picture_width, context));
     html += section("Rooms", rooms_table(reconstruction));
     html += section("Components", components_table(reconstruction));

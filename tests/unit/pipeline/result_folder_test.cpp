@@ -80,7 +80,7 @@ std::string complaint(const std::filesystem::path& folder, const GroundTruth& tr
 TEST(ResultFolder, GivesBackWhatARunLeft) {
     const TemporaryFolder folder;
     const FarScans far;
-    write_registration(folder.path(), far.as_result(), far.scans);
+    write_registration(folder.path(), far.as_result());
     write_interpretation(folder.path(), far.as_result());
     const Prediction prediction = read_result_folder(folder.path(), far.truth);
     EXPECT_EQ(prediction.labels->labels, far.truth.labels);
@@ -105,7 +105,7 @@ TEST(ResultFolder, OfTruthScoresFullAlsoFarFromTheOrigin) {
                                                                  truth.map.cloud.global_shift));
     for (const bool with_poses : {false, true}) {
         write_interpretation(folder / "result", far.as_result());
-        if (with_poses) write_registration(folder / "result", far.as_result(), far.scans);
+        if (with_poses) write_registration(folder / "result", far.as_result());
         const Prediction prediction = read_result_folder(folder / "result", truth);
         EXPECT_EQ(prediction.map_from_scan.empty(), !with_poses);
         const Evaluation evaluation = evaluate_result(truth, prediction);
@@ -119,7 +119,7 @@ TEST(ResultFolder, NeedNotHoldEverything) {
     const FarScans far;
     EXPECT_THAT(complaint(folder.path(), far.truth), HasSubstr("holds neither"));
     EXPECT_THAT(complaint(folder / "absent", far.truth), HasSubstr("no such folder"));
-    write_registration(folder.path(), far.as_result(), far.scans);
+    write_registration(folder.path(), far.as_result());
     EXPECT_FALSE(read_result_folder(folder.path(), far.truth).labels);
     write_interpretation(folder.path(), far.as_result());
     std::filesystem::remove(folder / "scene.json");
@@ -133,7 +133,7 @@ TEST(ResultFolder, MustFitTheTruth) {
     GroundTruth other = far.truth;
     other.map.cloud.positions.pop_back();
     EXPECT_THAT(complaint(folder.path(), other), HasSubstr("has 3 points and the truth 2"));
-    write_registration(folder.path(), far.as_result(), far.scans);
+    write_registration(folder.path(), far.as_result());
     other = far.truth;
     other.map_from_scan.pop_back();
     EXPECT_THAT(complaint(folder.path(), other), HasSubstr("has 2 poses and the truth 1"));

@@ -105,7 +105,7 @@ TEST(PrepareOutputFolder, RefusesAFolderWithoutWritePermission) {
 TEST(WriteRegistration, LeavesThreeWholeFiles) {
     const TemporaryFolder folder;
     const std::vector<Scan> scans = two_scans();
-    write_registration(folder.path(), registered(scans), scans);
+    write_registration(folder.path(), registered(scans));
     EXPECT_THAT(names_in(folder.path()),
                 UnorderedElementsAre("poses.txt", "registration.json", "map.ply"));
 
@@ -124,17 +124,18 @@ TEST(WriteRegistration, WritesPosesBetweenFileCoordinates) {
     std::vector<Scan> scans = two_scans();
     scans[0].cloud.global_shift = {5000, 0, 0};
     scans[1].cloud.global_shift = {0, 300, 0};
-    write_registration(folder.path(), registered(scans), scans);
+    write_registration(folder.path(), registered(scans));
     const auto poses = read_poses(folder / "poses.txt");
     EXPECT_TRUE(poses[0]->isApprox(Transform::Identity()));
     // A point of file b at its shift lies 1 m from the shift of the map's first scan.
     EXPECT_TRUE((*poses[1] * Eigen::Vector3d(0, 300, 0)).isApprox(Eigen::Vector3d(5001, 0, 0)));
 }
 
-TEST(WriteRegistration, NeedsTheScansOfTheRegistration) {
+TEST(WriteRegistration, NeedsAPoseSlotPerScan) {
     const TemporaryFolder folder;
-    const std::vector<Scan> scans = two_scans();
-    EXPECT_THROW(write_registration(folder.path(), registered(scans), {}), InvalidArgument);
+    Reconstruction result = registered(two_scans());
+    result.registration->map_from_scan.pop_back();
+    EXPECT_THROW(write_registration(folder.path(), result), InvalidArgument);
     EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
 }
 

@@ -42,7 +42,7 @@ void join(LinkForest& forest, const RegistrationLink& link) {
 }  // namespace
 
 LinkForest grow_forest(std::span<const RegistrationLink> links, std::size_t num_scans,
-                       bool with_ambiguous) {
+                       std::optional<double> min_ambiguous) {
     LinkForest forest;
     forest.set_of.resize(num_scans);
     std::iota(forest.set_of.begin(), forest.set_of.end(), std::size_t{0});
@@ -51,7 +51,8 @@ LinkForest grow_forest(std::span<const RegistrationLink> links, std::size_t num_
     std::vector<std::size_t> order;
     for (std::size_t i = 0; i < links.size(); ++i) {
         if (links[i].verdict == LinkVerdict::accepted ||
-            (with_ambiguous && links[i].verdict == LinkVerdict::ambiguous)) {
+            (min_ambiguous && links[i].verdict == LinkVerdict::ambiguous &&
+             links[i].probability >= *min_ambiguous)) {
             order.push_back(i);
         }
     }

@@ -21,8 +21,9 @@ struct LinkForest {
 };
 
 /// Joins scans by the likeliest links, all accepted ones before any ambiguous one: a spanning tree
-/// per connected set. Ambiguous links take part if `with_ambiguous`.
+/// per connected set. Ambiguous links take part if they have at least the probability
+/// `min_ambiguous`; none of them if it is not given.
 LinkForest grow_forest(std::span<const RegistrationLink> links, std::size_t num_scans,
-                       bool with_ambiguous);
+                       std::optional<double> min_ambiguous = {});
 
 }  // namespace roomscribe

@@ -128,10 +128,11 @@ class LinkFinder {
                 pairs.push_back(nearby_pair(scan, other, known_[scan]->world_from_scan,
                                             known_[other]->world_from_scan));
             }
-            keep_nearest(pairs, settings_.max_partners);
+            const int max_links = 2 * settings_.max_closures;
+            keep_nearest(pairs, max_links);
             int num_links = 0;
             for (const NearbyPair& pair : pairs) {
-                if (num_links == settings_.max_partners) break;
+                if (num_links == max_links) break;
                 if (find_link(pair.source, pair.target) != nullptr) {
                     ++num_links;
                 } else if (should_overlap(pair)) {
@@ -153,7 +154,7 @@ class LinkFinder {
             const auto [target, source, promise] = pairs[i];
             context_.report_progress(
                 "register", 0.7 * static_cast<double>(i) / static_cast<double>(pairs.size()));
-            const LinkForest forest = grow_forest(links_, scans_.size(), false);
+            const LinkForest forest = grow_forest(links_, scans_.size());
             if (forest.set_of[source] == forest.set_of[target]) continue;
             if (find_link(source, target) == nullptr) register_without_guess(source, target);
         }
@@ -161,7 +162,7 @@ class LinkFinder {
 
     /// Links between scans that are in one set and lie near each other.
     void close_loops() {
-        const LinkForest forest = grow_forest(links_, scans_.size(), false);
+        const LinkForest forest = grow_forest(links_, scans_.size());
         for (std::size_t scan = 0; scan < scans_.size(); ++scan) {
             context_.report_progress("register", 0.7 + 0.2 * static_cast<double>(scan) /
                                                            static_cast<double>(scans_.size()));

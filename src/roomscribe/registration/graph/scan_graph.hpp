@@ -17,7 +17,7 @@
 namespace roomscribe {
 
 struct ScanGraphSettings {
-    int max_partners = 8;
+    int max_partners = 30;
     int max_closures = 4;
 
     void visit(SettingVisitor& visitor) {
@@ -26,7 +26,8 @@ struct ScanGraphSettings {
                  .unit = "",
                  .min = 1,
                  .max = 1000,
-                 .doc = "Other scans that a scan is registered to without a guess, at most."});
+                 .doc = "Other scans that a scan is registered to without a guess, at most, while they do "
+                        "not hang together yet."});
         visitor(max_closures,
                 {.name = "max_closures",
                  .unit = "",

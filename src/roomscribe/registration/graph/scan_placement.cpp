@@ -45,8 +45,13 @@ PoseConstraint constraint_of(const KnownPose& known, std::size_t scan, std::size
 class Placer {
   public:
     Placer(std::vector<RegistrationLink> links, std::size_t num_scans,
-           std::span<const std::optional<KnownPose>> known, KnownPoseUse use, double noise)
-        : num_scans_(num_scans), known_(known), use_(use), noise_(noise) {
+           std::span<const std::optional<KnownPose>> known, KnownPoseUse use, double noise,
+           double min_ambiguous)
+        : num_scans_(num_scans),
+          known_(known),
+          use_(use),
+          noise_(noise),
+          min_ambiguous_(min_ambiguous) {
         result_.links = std::move(links);
         for (std::size_t scan = 0; scan < known.size(); ++scan) {
             if (known[scan]) known_scans_.push_back(scan);
@@ -54,7 +59,7 @@ class Placer {
     }
 
     Registration run(const PoseGraphSettings& settings, const Context& context) && {
-        forest_ = grow_forest(links_and_bonds(), num_scans_, true);
+        forest_ = grow_forest(links_and_bonds(), num_scans_, min_ambiguous_);
         map_set_ = choose_map_set();
         if (keeps_known()) move_to_known();
         find_components();
@@ -128,7 +133,7 @@ class Placer {
             const RegistrationLink& link = result_.links[i];
             const bool is_needed =
                 std::binary_search(forest_.used_links.begin(), forest_.used_links.end(), i);
-            if ((link.verdict == LinkVerdict::accepted || is_needed) && is_placed(link.source)) {
+            if (link.verdict == LinkVerdict::accepted || is_needed) {
                 graph.constraints.push_back(constraint_of(link, noise_));
             }
         }
@@ -137,6 +142,9 @@ class Placer {
         } else {
             graph.fixed = {map_set_};
             add_priors(graph);
+        }
+        for (const std::vector<std::size_t>& scans : result_.components) {
+            if (!is_placed(scans.front())) graph.fixed.push_back(scans.front());
         }
         return graph;
     }
@@ -155,11 +163,12 @@ class Placer {
 
     void place(const PoseGraphResult& optimized) {
         for (std::size_t scan = 0; scan < num_scans_; ++scan) {
+            const Transform& pose = optimized.map_from_node[scan];
             const bool placed = is_placed(scan);
-            result_.map_from_scan.push_back(placed ? std::optional(optimized.map_from_node[scan])
-                                                   : std::nullopt);
-            result_.covariances.push_back(placed ? optimized.covariances[scan] : Matrix6d::Zero());
-            result_.is_doubtful.push_back(placed && forest_.is_doubtful[scan]);
+            result_.map_from_scan.push_back(placed ? std::optional(pose) : std::nullopt);
+            result_.apart_from_scan.push_back(placed ? std::nullopt : std::optional(pose));
+            result_.covariances.push_back(optimized.covariances[scan]);
+            result_.is_doubtful.push_back(forest_.is_doubtful[scan]);
         }
     }
 
@@ -187,6 +196,7 @@ class Placer {
     std::span<const std::optional<KnownPose>> known_;
     KnownPoseUse use_;
     double noise_;
+    double min_ambiguous_;
     std::vector<std::size_t> known_scans_;
     LinkForest forest_;
     std::size_t map_set_ = 0;  ///< lowest scan of the set that becomes the map
@@ -197,8 +207,10 @@ class Placer {
 
 Registration place_scans(std::vector<RegistrationLink> links, std::size_t num_scans,
                          std::span<const std::optional<KnownPose>> known, KnownPoseUse use,
-                         double noise, const PoseGraphSettings& settings, const Context& context) {
-    return Placer(std::move(links), num_scans, known, use, noise).run(settings, context);
+                         double noise, double min_ambiguous, const PoseGraphSettings& settings,
+                         const Context& context) {
+    return Placer(std::move(links), num_scans, known, use, noise, min_ambiguous)
+        .run(settings, context);
 }
 
 }  // namespace roomscribe

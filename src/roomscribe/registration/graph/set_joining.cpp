@@ -36,12 +36,12 @@ class SetJoiner {
         : links_(links), scans_(scans), settings_(settings), context_(context) {}
 
     void run() {
-        forest_ = grow_forest(links_, scans_.size(), false);
+        forest_ = grow_forest(links_, scans_.size());
         find_junctions();
         while (const std::optional<Junction> best = likeliest_junction()) {
             settle_link(links_[best->link], best->target_from_source);
             links_[best->link].probability = best->probability;
-            forest_ = grow_forest(links_, scans_.size(), false);
+            forest_ = grow_forest(links_, scans_.size());
             find_junctions();
         }
     }
