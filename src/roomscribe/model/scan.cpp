@@ -71,6 +71,7 @@ ScanMap merge_scans(std::span<const Scan> scans,
         if (map_from_scan[i]) {
             transform_in_place(placed, *map_from_scan[i]);
             section.sensor_position = *map_from_scan[i] * scan.sensor_position();
+            section.sensor_axes = map_from_scan[i]->linear() * scan.sensor_axes();
         } else {
             make_missing(placed);
         }
@@ -92,7 +93,10 @@ ScanMap map_of_cloud(Scan scan) {
     ScanMap map;
     MapSection section{std::move(scan.name), 0, static_cast<std::uint32_t>(scan.cloud.size()),
                        std::nullopt, scan.cloud.global_shift};
-    if (scan.cloud.sensor_pose) section.sensor_position = scan.sensor_position();
+    if (scan.cloud.sensor_pose) {
+        section.sensor_position = scan.sensor_position();
+        section.sensor_axes = scan.sensor_axes();
+    }
     map.cloud = std::move(scan.cloud);
     map.sections.push_back(std::move(section));
     return map;

@@ -22,6 +22,11 @@ struct Scan {
         return cloud.sensor_pose ? Eigen::Vector3d(cloud.sensor_pose->translation())
                                  : Eigen::Vector3d::Zero();
     }
+    /// The scanner's own frame -> the scan's.
+    Eigen::Matrix3d sensor_axes() const {
+        return cloud.sensor_pose ? Eigen::Matrix3d(cloud.sensor_pose->linear())
+                                 : Eigen::Matrix3d::Identity();
+    }
 };
 
 /// A run of points of the map that one scanner position saw.
@@ -32,6 +37,8 @@ struct MapSection {
     /// Scanner position in the map frame, if known. Unknown for a cloud that was merged before.
     std::optional<Eigen::Vector3d> sensor_position;
     Eigen::Vector3d scan_shift = Eigen::Vector3d::Zero();  ///< global_shift of the scan itself
+    /// The scanner's frame -> the map frame, where its position is known and its axes are, too.
+    std::optional<Eigen::Matrix3d> sensor_axes = std::nullopt;
 };
 
 /// All scans in one frame, one after another in input order: every point of every scan, NaN too.

@@ -85,7 +85,10 @@ void infer_scanner(Reconstruction& reconstruction) {
     scan.cloud.positions = map.cloud.positions;
     const std::optional<Scan> cleaned = without_saturated_returns(scan);
     const OriginTest test = test_scan_origin(cleaned ? cleaned->cloud : scan.cloud);
-    if (test.is_scanner) map.sections[0].sensor_position = Eigen::Vector3d::Zero();
+    if (test.is_scanner) {
+        map.sections[0].sensor_position = Eigen::Vector3d::Zero();
+        map.sections[0].sensor_axes = Eigen::Matrix3d::Identity();
+    }
     reconstruction.derived_values.push_back(
         {"structure.jumps_from_origin", test.share_of_jumps, "",
          test.is_scanner ? "so few neighbours in direction differ in distance that the cloud was "

@@ -118,8 +118,11 @@ std::vector<MapSection> find_sections(const fs::path& truth_files,
         const fs::path path = truth_files / (scan_name(i) + ".labels.npy");
         if (!fs::exists(path)) break;
         const auto count = static_cast<std::uint32_t>(read_npy<std::uint8_t>(path).size());
-        sections.push_back(
-            {scan_name(i), first, count, Eigen::Vector3d(map_from_scan[i].translation())});
+        sections.push_back({.name = scan_name(i),
+                            .first = first,
+                            .count = count,
+                            .sensor_position = map_from_scan[i].translation(),
+                            .sensor_axes = map_from_scan[i].linear()});
         first += count;
     }
     if (sections.size() == map_from_scan.size() && first == num_points) return sections;

@@ -8,6 +8,7 @@
 #include "roomscribe/core/quantile.hpp"
 #include "roomscribe/geometry/search_tree.hpp"
 #include "roomscribe/preprocessing/normal_estimation.hpp"
+#include "roomscribe/preprocessing/scanner_up.hpp"
 
 namespace roomscribe {
 namespace {
@@ -31,6 +32,24 @@ void face_scanners(const ScanMap& map, SurfaceSample& sample) {
     for (std::size_t i = 0; i < votes.size(); ++i) {
         if (votes[i] < 0) sample.cloud.normals[i] = -sample.cloud.normals[i];
     }
+}
+
+Eigen::Vector3d find_usual_up(const ScanMap& map) {
+    std::vector<UsualUp> ups;
+    for (const MapSection& section : map.sections) {
+        if (!section.sensor_position || !section.sensor_axes) continue;
+        const Eigen::Matrix3f sensor_from_map = section.sensor_axes->transpose().cast<float>();
+        const Eigen::Vector3f sensor = section.sensor_position->cast<float>();
+        std::vector<Eigen::Vector3f> in_sensor;
+        // Some thousand rays show where a scanner looks.
+        const std::uint32_t stride = 1 + section.count / 5000;
+        for (std::uint32_t i = section.first; i < section.first + section.count; i += stride)
+            in_sensor.emplace_back(sensor_from_map * (map.cloud.positions[i] - sensor));
+        UsualUp usual = usual_up(in_sensor);
+        usual.up = *section.sensor_axes * usual.up;
+        ups.push_back(usual);
+    }
+    return common_up(ups);
 }
 
 double lower_quartile(std::vector<float> values) {
@@ -135,6 +154,7 @@ SurfaceSample sample_surface(const ScanMap& map, const ScanStatistics& statistic
     for (const MapSection& section : map.sections) {
         if (section.sensor_position) sample.sensor_positions.push_back(*section.sensor_position);
     }
+    sample.usual_up = find_usual_up(map);
     if (sample.cloud.empty()) return sample;
 
     const SearchTree tree(sample.cloud.positions);

@@ -21,7 +21,9 @@ struct SurfaceSample {
     /// where it was seen from: then the normals' signs mean nothing.
     bool normals_face_scanner = false;
     std::vector<Eigen::Vector3d> sensor_positions;  ///< the known ones
-    double voxel_size = 0.0;                        ///< m
+    /// Which way is up if the scanners are mounted as most are: see common_up.
+    Eigen::Vector3d usual_up = Eigen::Vector3d::Zero();
+    double voxel_size = 0.0;  ///< m
     /// m, distance of neighbouring points of the sample where the surface is sampled as most of it.
     double spacing = 0.0;
     /// m, standard deviation of the points about smooth surface: that of the statistics, or the

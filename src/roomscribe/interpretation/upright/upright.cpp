@@ -38,9 +38,10 @@ constexpr double seat_area = 0.2;
 /// By UprightEvidence. What tells an axis from the others (the first three, and the last) counts
 /// more than what tells its two directions apart, since cupboards and clutter before a wall look
 /// much like tables and clutter on a floor. Among the latter, clutter is the most dependable;
-/// furniture and doors are told by size alone and only break ties.
+/// furniture and doors are told by size alone and only break ties. The mount of a
+/// camera outweighs a lone wall, which has few levels, and yields to a room seen whole.
 constexpr std::array<double, num_upright_evidence> evidence_weights{4.0, 3.0, 1.5, 0.25, 0.5,
-                                                                    2.0, 1.0, 1.0, 1.0,  1.5};
+                                                                    2.0, 1.0, 1.0, 1.0,  1.5, 4.0};
 
 /// (a - b) / (a + b), drawn to 0 where both are smaller than `scale`.
 double contrast(double a, double b, double scale) {
@@ -154,7 +155,7 @@ AxisProfile without_table_as_level(const AxisProfile& profile) {
 
 /// `profile` is along the direction, pointing up. `worst_slanted` is over the three axes.
 UprightCandidate judge(const Eigen::Vector3d& up, const AxisProfile& profile, double worst_slanted,
-                       double supported, std::span<const Eigen::Vector3d> sensors) {
+                       double supported, const SurfaceSample& sample) {
     UprightCandidate candidate;
     candidate.up = up;
     const auto set = [&](UprightEvidence which, double value) {
@@ -174,7 +175,7 @@ UprightCandidate judge(const Eigen::Vector3d& up, const AxisProfile& profile, do
                  0.05 * static_cast<double>(profile.planar_heights.size())));
     set(UprightEvidence::things_stand_on_it, supported);
     std::vector<double> scanners;
-    for (const Eigen::Vector3d& sensor : sensors)
+    for (const Eigen::Vector3d& sensor : sample.sensor_positions)
         scanners.push_back(sensor.dot(up));
     set(UprightEvidence::scanner_height, scanner_height(profile, scanners));
     if (!profile.low || !profile.high) {
@@ -182,7 +183,20 @@ UprightCandidate judge(const Eigen::Vector3d& up, const AxisProfile& profile, do
             0.5 * contrast(profile.low_area, profile.high_area, seat_area));
     }
     set(UprightEvidence::nothing_beyond, nothing_beyond(profile));
+    set(UprightEvidence::scanner_mount, std::max(0.0, sample.usual_up.dot(up)));
     return candidate;
+}
+
+/// Axes of a single plane, turned about its normal so that the second is as near as can be to `up`;
+/// as they are if the normal is up.
+PrincipalAxes turned_upright(const PrincipalAxes& axes, const Eigen::Vector3d& up) {
+    const Eigen::Vector3d normal = axes.axes.col(0);
+    const Eigen::Vector3d along = up - up.dot(normal) * normal;
+    if (along.norm() < std::sin(level_angle) * up.norm() || up.isZero()) return axes;
+    PrincipalAxes turned = axes;
+    turned.axes.col(1) = along.normalized();
+    turned.axes.col(2) = normal.cross(turned.axes.col(1));
+    return turned;
 }
 
 /// The direction that is nearest to all normals of level patches and to the perpendicular of all
@@ -267,6 +281,8 @@ std::string_view upright_evidence_name(UprightEvidence evidence) {
             return "floor_rather_than_ceiling";
         case UprightEvidence::nothing_beyond:
             return "nothing_beyond";
+        case UprightEvidence::scanner_mount:
+            return "scanner_mount";
     }
     return "";
 }
@@ -284,14 +300,17 @@ std::string_view upright_stop_name(UprightStop stop) {
 }
 
 Upright find_upright(const SurfaceSample& sample, std::span<const PlanarPatch> patches,
-                     const PrincipalAxes& axes, const UprightSettings& settings,
+                     const PrincipalAxes& found_axes, const UprightSettings& settings,
                      const Context& context) {
     check_settings(settings);
     Upright result;
     if (patches.empty()) return result;
 
-    // With one plane only, the other two axes are arbitrary and cannot be up.
-    const int num_axes = axes.stop == PrincipalAxesStop::one_plane ? 1 : 3;
+    // With one plane only, the other two axes are arbitrary and cannot be up, unless the scanner
+    // says which of them is.
+    const bool has_one_plane = found_axes.stop == PrincipalAxesStop::one_plane;
+    const PrincipalAxes axes = has_one_plane ? turned_upright(found_axes, sample.usual_up) : found_axes;
+    const int num_axes = has_one_plane && sample.usual_up.isZero() ? 1 : 3;
     const std::vector<Eigen::Vector3f> clutter = find_clutter(sample, patches);
     std::vector<AxisProfile> profiles;
     double worst_slanted = 0.0;
@@ -306,7 +325,7 @@ Upright find_upright(const SurfaceSample& sample, std::span<const PlanarPatch> p
             const Eigen::Vector3d up = sign * axes.axes.col(axis);
             const double supported = supported_share(clutter, profile, sample, patches, up);
             result.candidates.push_back(judge(up, without_table_as_level(profile), worst_slanted,
-                                              supported, sample.sensor_positions));
+                                              supported, sample));
             reverse(profile);
         }
     }

@@ -55,9 +55,12 @@ enum class UprightEvidence : std::uint8_t {
     floor_rather_than_ceiling,
     /// Below a floor and above a ceiling there is nothing: the share of surface beyond them,
     /// negative.
-    nothing_beyond
+    nothing_beyond,
+    /// Scanners are mounted with their z up, depth cameras with y down, and held upright to some 30
+    /// degrees: the cosine to what is up for them (SurfaceSample::usual_up), at least 0.
+    scanner_mount
 };
-inline constexpr std::size_t num_upright_evidence = 10;
+inline constexpr std::size_t num_upright_evidence = 11;
 std::string_view upright_evidence_name(UprightEvidence evidence);
 
 struct UprightCandidate {
@@ -111,7 +114,8 @@ struct UprightSettings {
     }
 };
 
-/// Which of the six directions of the principal axes is up. Nothing is taken from the file's frame.
+/// Which of the six directions of the principal axes is up. Nothing is taken from the file's frame
+/// but that of a scanner that is known.
 /// The direction found is then refined by least squares over all patches that are level or upright
 /// with respect to it, whatever way they face. Where the signs of normals are not known
 /// (`sample.normals_face_scanner`), the evidence that needs them is 0.

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <span>
+
+#include <Eigen/Core>
+
+namespace roomscribe {
+
+/// Which way is up for a scanner that is mounted as most are. Nobody is bound to it: a scanner may
+/// lie on its side.
+struct UsualUp {
+    Eigen::Vector3d up = Eigen::Vector3d::UnitZ();  ///< unit vector
+    bool is_camera = false;
+};
+
+/// That of a scanner in its own frame. A frame of a robot, a tripod or a vehicle has z up (ROS REP
+/// 103); that of a camera looks along z and has y down (REP 103, "optical"). A camera is told by
+/// its field of view: all points lie within 60 degrees of z, half of what the widest depth cameras
+/// see. `positions` are in the scanner's frame; those that are not finite do not count.
+UsualUp usual_up(std::span<const Eigen::Vector3f> positions);
+
+/// What those of all scanners of a map, in its frame, say together. The length says how much they
+/// are to be trusted: 1 for cameras, whose frames are told by what they see; 0.5 for other scanners
+/// that agree, as those do that are mounted alike and carried upright; 0.25 for a single one, since
+/// nothing confirms it; 0 where they disagree by more than 30 degrees or so, or there is none.
+Eigen::Vector3d common_up(std::span<const UsualUp> ups);
+
+}  // namespace roomscribe
