@@ -90,6 +90,8 @@ class PlanDrawer {
         }
     }
     bool lay_out();
+    double find_floor() const;
+    double top() const;
     void mark_levels();
     void mark_occupied();
     void trace_rays();
@@ -131,7 +133,8 @@ void PlanDrawer::for_each_neighbor(std::size_t cell, int reach, Visit&& visit) c
     }
 }
 
-/// The raster over all level surface of the storey. False if there is none.
+/// The raster over all level surface of the storey and the scanners in it; over all surface before
+/// a scanner that saw nothing level. False if there is none of either.
 bool PlanDrawer::lay_out() {
     std::vector<double> xs;
     std::vector<double> ys;
@@ -144,11 +147,19 @@ bool PlanDrawer::lay_out() {
     if (storey_.floor) for_each_voxel(*storey_.floor, include);
     for (const Level& level : storey_.other_floors)
         for_each_voxel(level, include);
-    if (xs.empty()) return false;
-    constexpr double assumed_height = 2.5;  // of a storey that shows its ceiling only
-    floor_ = storey_.floor ? storey_.floor->height : *storey_.ceiling_height() - assumed_height;
+    const bool has_level = !xs.empty();
+    if (!has_level) {
+        if (rays_.empty()) return false;
+        for (const Eigen::Vector3f& position : sample_.cloud.positions)
+            include(in_room(position));
+    }
+    floor_ = find_floor();
 
     const Vector2d middle(median(xs), median(ys));
+    for (const Vector3d& sensor : sample_.sensor_positions) {
+        const Vector3d place = in_room(sensor.cast<float>());
+        if (place.z() > floor_ && place.z() < top()) include(place);
+    }
     const Vector2d margin = Vector2d::Constant(0.5);
     const Vector2d low =
         Vector2d(*std::min_element(xs.begin(), xs.end()), *std::min_element(ys.begin(), ys.end()))
@@ -160,6 +171,28 @@ bool PlanDrawer::lay_out() {
         FloorPlan(low - margin, high + margin, std::max(min_cell_size, 1.25 * sample_.voxel_size));
     cells_.resize(plan_.num_cells());
     return true;
+}
+
+/// Height of the floor; where none was seen, where it is likely to be.
+double PlanDrawer::find_floor() const {
+    constexpr double storey_height = 2.5;
+    constexpr double scanner_height = 1.5;
+    if (storey_.floor) return storey_.floor->height;
+    if (storey_.ceiling_height()) return *storey_.ceiling_height() - storey_height;
+    std::vector<double> scanners;
+    for (const Vector3d& sensor : sample_.sensor_positions)
+        scanners.push_back(in_room(sensor.cast<float>()).z());
+    std::vector<double> heights;
+    for (const Eigen::Vector3f& position : sample_.cloud.positions)
+        heights.push_back(in_room(position).z());
+    constexpr double stray_share = 0.01;
+    return std::min(median(scanners) - scanner_height, quantile(heights, stray_share));
+}
+
+/// No ray of the storey goes higher.
+double PlanDrawer::top() const {
+    return storey_.ceilings.empty() ? std::numeric_limits<double>::infinity()
+                                    : storey_.ceilings.back().height;
 }
 
 void PlanDrawer::mark_levels() {
@@ -186,19 +219,15 @@ void PlanDrawer::mark_levels() {
 
 /// Marks where anything stands: also without rays it is known to be within the building.
 void PlanDrawer::mark_occupied() {
-    const double top = storey_.ceilings.empty() ? std::numeric_limits<double>::infinity()
-                                                : storey_.ceilings.back().height;
     for (const Eigen::Vector3f& position : sample_.cloud.positions) {
         const Vector3d point = in_room(position);
-        if (point.z() < floor_ || point.z() > top) continue;
+        if (point.z() < floor_ || point.z() > top()) continue;
         if (const auto cell = plan_.cell_at(point.head<2>())) cells_[*cell].is_occupied = true;
     }
 }
 
 /// Counts in each cell the rays that pass between floor and ceiling.
 void PlanDrawer::trace_rays() {
-    const double top = storey_.ceilings.empty() ? std::numeric_limits<double>::infinity()
-                                                : storey_.ceilings.back().height;
     const double step = 0.5 * plan_.cell_size();
     for (const Ray& traced : rays_) {
         const Vector3d origin = in_room(traced.origin);
@@ -209,7 +238,7 @@ void PlanDrawer::trace_rays() {
         std::size_t last = plan_.num_cells();
         for (double along = 0.0; along < end; along += step) {
             const Vector3d point = origin + (along / length) * ray;
-            if (point.z() < floor_ || point.z() > top) break;
+            if (point.z() < floor_ || point.z() > top()) break;
             const auto cell = plan_.cell_at(point.head<2>());
             if (!cell) break;
             if (*cell != last) ++cells_[*cell].num_rays;

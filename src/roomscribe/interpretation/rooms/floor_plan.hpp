@@ -78,7 +78,8 @@ class FloorPlan {
 /// furniture. Gaps as wide as doors between pieces of one line are parted too. What parts only
 /// high up along a long line, as beams and steps of the ceiling do, parts no rooms.
 ///
-/// Of a storey without surface or wall there are no rooms.
+/// Around a scanner, what its rays passed through is a room as far as it cannot look down; where it
+/// saw nothing level, as far as it saw. Of a storey without either there are no rooms.
 FloorPlan draw_floor_plan(std::span<const Ray> rays, const SurfaceSample& sample,
                           std::span<const PlanarPatch> patches,
                           const Eigen::Matrix3d& room_from_map, const Storey& storey,
