@@ -505,7 +505,8 @@ void PlanDrawer::choose_rooms() {
     plan_.rooms.clear();
     for (std::size_t i = 0; i < counts.size(); ++i) {
         const Count& count = counts[i];
-        if (count.cells * cell_area < min_room_area) continue;
+        // Of the room of a camera before a wall it may be that no more is seen.
+        if (count.cells * cell_area < min_room_area && !count.holds_scanner) continue;
         const bool has_ceiling = count.ceiling >= min_level_share * count.cells &&
                                  (!storey_.floor || count.floor >= min_floor_share * count.cells);
         const bool is_walled =

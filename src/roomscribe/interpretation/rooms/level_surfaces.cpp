@@ -79,23 +79,57 @@ void add_sloping_ceilings(std::vector<Storey>& storeys, std::span<const PlanarPa
     }
 }
 
+/// Number of a square of the plan of a quarter of a metre.
+std::pair<int, int> cell_of(const Eigen::Vector3d& point, const PlaneAxes& axes) {
+    constexpr double cell_size = 0.25;
+    return {static_cast<int>(std::floor(point.dot(axes.u) / cell_size)),
+            static_cast<int>(std::floor(point.dot(axes.v) / cell_size))};
+}
+
 /// Cells of the plan, ascending, that a level fills.
 std::vector<std::pair<int, int>> cells_of(const Level& level, const SurfaceSample& sample,
                                           std::span<const PlanarPatch> patches,
                                           const Eigen::Vector3d& up) {
-    constexpr double cell_size = 0.25;
     const PlaneAxes axes = plane_axes(up);
     std::vector<std::pair<int, int>> cells;
     for (const std::uint32_t patch : level.patches) {
         for (const std::uint32_t voxel : patches[patch].points) {
             const Eigen::Vector3d point = sample.cloud.positions[voxel].cast<double>();
-            cells.emplace_back(static_cast<int>(std::floor(point.dot(axes.u) / cell_size)),
-                               static_cast<int>(std::floor(point.dot(axes.v) / cell_size)));
+            cells.push_back(cell_of(point, axes));
         }
     }
     std::sort(cells.begin(), cells.end());
     cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
     return cells;
+}
+
+/// Whether surface goes on under the level or at its rim, as it does under tables and worktops, but
+/// not under a floor.
+bool stands_on_something(const Level& level, const SurfaceSample& sample,
+                         std::span<const PlanarPatch> patches, const Eigen::Vector3d& up) {
+    // Of a worktop 0.6 m deep with a front 0.7 m high, most of it seen from above.
+    constexpr double min_share_below = 0.25;
+    // Thresholds and the noise of floors seen from afar.
+    constexpr double clearance = 0.2;
+    const std::vector<std::pair<int, int>> cells = cells_of(level, sample, patches, up);
+    const PlaneAxes axes = plane_axes(up);
+    std::size_t below = 0;
+    for (const Eigen::Vector3f& position : sample.cloud.positions) {
+        const Eigen::Vector3d point = position.cast<double>();
+        if (point.dot(up) > level.height - clearance) continue;
+        const auto [x, y] = cell_of(point, axes);
+        bool is_under = false;
+        for (int i = x - 1; i <= x + 1; ++i) {
+            // The cells of a column lie side by side.
+            const auto first = std::lower_bound(cells.begin(), cells.end(), std::pair(i, y - 1));
+            is_under = is_under || (first != cells.end() && *first <= std::pair(i, y + 1));
+        }
+        below += is_under ? 1 : 0;
+    }
+    std::size_t num_voxels = 0;
+    for (const std::uint32_t patch : level.patches)
+        num_voxels += patches[patch].points.size();
+    return static_cast<double>(below) >= min_share_below * static_cast<double>(num_voxels);
 }
 
 /// Takes out, from below, what lies under none of the levels above and is much smaller than one of
@@ -149,6 +183,7 @@ std::vector<Storey> find_storeys(const SurfaceSample& sample, std::span<const Pl
         const Level* level = large[i];
         Storey& storey = storeys.back();
         if (!storey.floor && storey.ceilings.empty() && may_be_floor(level)) {
+            if (stands_on_something(*level, sample, patches, up)) continue;
             storey.floor = *level;
             continue;
         }

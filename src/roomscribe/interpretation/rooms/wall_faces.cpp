@@ -37,6 +37,8 @@ constexpr double min_clearance = 0.15;
 /// m, in which it is told where along a wall something was seen.
 constexpr double column_width = 0.1;
 
+enum class AboveFace : std::uint8_t { surface, free, unseen };
+
 class FaceFinder {
   public:
     FaceFinder(std::span<const Ray> rays, const SurfaceSample& sample,
@@ -66,7 +68,7 @@ class FaceFinder {
     double share_behind(const WallFace& face, double nearest, double farthest, Test&& test) const;
     bool is_last(const WallFace& face) const;
     bool has_level_behind(const WallFace& face) const;
-    bool is_passed_over(const WallFace& face) const;
+    AboveFace look_above(const WallFace& face) const;
     bool is_wall(const WallFace& face) const;
     bool is_closed_between(const WallFace& wall, double from, double to) const;
     double shared_columns(const WallFace& wall, const WallFace& face) const;
@@ -192,32 +194,35 @@ bool FaceFinder::has_level_behind(const WallFace& face) const {
                         [&](const Vector2d& place) { return plan_.has_level_at(place); }) > 0.5;
 }
 
-/// Whether rays go on above the face, under the ceiling, as they do over furniture and over leaves
-/// that stand open.
-bool FaceFinder::is_passed_over(const WallFace& face) const {
+/// What becomes of rays above the face, under the ceiling: they go on over furniture and over
+/// leaves that stand open.
+AboveFace FaceFinder::look_above(const WallFace& face) const {
     constexpr double margin = 0.05;
     constexpr double lintel = 0.3;  // m, of what is looked at where no ceiling tells
     constexpr std::size_t min_rays = 8;
     const PlanRoom& room = plan_.rooms[static_cast<std::size_t>(face.room)];
     WallRectangle above{face.start, face.end, face.top + margin, 0.0};
     above.top = room.lowest_ceiling ? *room.lowest_ceiling - margin : above.bottom + lintel;
-    if (above.height() < margin) return false;
+    if (above.height() < margin) return AboveFace::surface;
     const RayCount count =
         count_rays(rays_, {face.plane, face.along, up_, above}, 2.0 * sample_.tolerance);
-    return count.passed >= min_rays && count.passed >= count.ended;
+    if (count.passed >= min_rays && count.passed >= count.ended) return AboveFace::free;
+    return count.passed + count.ended < min_rays ? AboveFace::unseen : AboveFace::surface;
 }
 
 /// Walls reach the ceiling and are more than a beam; where that cannot be seen, they are taller
-/// than furniture and the last thing that was seen.
+/// than furniture, unless the view ends there, and the last thing that was seen.
 bool FaceFinder::is_wall(const WallFace& face) const {
     const PlanRoom& room = plan_.rooms[static_cast<std::size_t>(face.room)];
     const double height = face.top - face.bottom;
-    if (height < settings_.min_wall_height || is_passed_over(face)) return false;
+    const AboveFace above = look_above(face);
+    if (height < settings_.min_wall_height || above == AboveFace::free) return false;
     // Beams, ducts and soffits end above the floor, which goes on under them.
     if (face.reaches_ceiling) return face.reaches_floor || !has_level_behind(face);
     if (!room.lowest_ceiling && height >= settings_.min_free_wall_height) return true;
-    return face.area >= min_closing_area &&
-           face.top >= room.floor_height + settings_.min_closing_top && is_last(face);
+    const bool is_tall = face.top >= room.floor_height + settings_.min_closing_top ||
+                         (!rays_.empty() && above == AboveFace::unseen);
+    return face.area >= min_closing_area && is_tall && is_last(face);
 }
 
 /// A leaf or a pane in the wall, or the front of what stands before it: parallel, within the wall's
