@@ -2,6 +2,7 @@
 #include "roomscribe/preprocessing/scanner_up.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "roomscribe/core/units.hpp"
@@ -9,15 +10,25 @@
 namespace roomscribe {
 
 UsualUp usual_up(std::span<const Eigen::Vector3f> positions) {
+    struct CameraFrame {
+        Eigen::Vector3f view;
+        Eigen::Vector3d up;
+    };
+    const std::array<CameraFrame, 3> frames{
+        CameraFrame{Eigen::Vector3f::UnitZ(), -Eigen::Vector3d::UnitY()},
+        CameraFrame{-Eigen::Vector3f::UnitZ(), Eigen::Vector3d::UnitY()},
+        CameraFrame{Eigen::Vector3f::UnitX(), Eigen::Vector3d::UnitZ()}};
     const auto min_cosine = static_cast<float>(std::cos(radians(60.0)));
-    std::size_t num_points = 0;
-    const bool is_camera =
-        std::all_of(positions.begin(), positions.end(), [&](const Eigen::Vector3f& point) {
-            if (!point.allFinite()) return true;
-            ++num_points;
-            return point.z() >= min_cosine * point.norm();
-        });
-    if (is_camera && num_points > 0) return {-Eigen::Vector3d::UnitY(), true};
+    for (const CameraFrame& frame : frames) {
+        std::size_t num_points = 0;
+        const bool sees_all =
+            std::all_of(positions.begin(), positions.end(), [&](const Eigen::Vector3f& point) {
+                if (!point.allFinite()) return true;
+                ++num_points;
+                return point.dot(frame.view) >= min_cosine * point.norm();
+            });
+        if (sees_all && num_points > 0) return {frame.up, true};
+    }
     return {};
 }
 

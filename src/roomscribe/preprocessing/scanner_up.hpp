@@ -14,10 +14,11 @@ struct UsualUp {
     bool is_camera = false;
 };
 
-/// That of a scanner in its own frame. A frame of a robot, a tripod or a vehicle has z up (ROS REP
-/// 103); that of a camera looks along z and has y down (REP 103, "optical"). A camera is told by
-/// its field of view: all points lie within 60 degrees of z, half of what the widest depth cameras
-/// see. `positions` are in the scanner's frame; those that are not finite do not count.
+/// That of a scanner in its own frame. A frame of a robot, a tripod or a vehicle has z up and looks
+/// along x (ROS REP 103); that of a camera looks along z and has y down (REP 103, "optical"), or
+/// along -z and has y up (OpenGL, and what PCL writes for Kinects). A camera is told by its field
+/// of view: all points lie within 60 degrees of the way it looks, half of what the widest depth
+/// cameras see. `positions` are in the scanner's frame; those that are not finite do not count.
 UsualUp usual_up(std::span<const Eigen::Vector3f> positions);
 
 /// What those of all scanners of a map, in its frame, say together. The length says how much they

@@ -186,7 +186,8 @@ std::string check_list(const Reconstruction& reconstruction) {
 /// The reports of the scans that could not be joined to this map.
 std::string maps_apart(const Reconstruction& reconstruction) {
     if (reconstruction.apart.empty()) return {};
-    std::string html = "<p>Scans that could not be joined to this map are maps of their own:</p><ul>\n";
+    std::string html =
+        "<p>Scans that could not be joined to this map are maps of their own:</p><ul>\n";
     for (std::size_t i = 0; i < reconstruction.apart.size(); ++i) {
         const std::string folder = folder_of_apart(i);
         const auto& sections = reconstruction.apart[i].map.sections;

@@ -131,6 +131,18 @@ TEST(WriteRegistration, WritesPosesBetweenFileCoordinates) {
     EXPECT_TRUE((*poses[1] * Eigen::Vector3d(0, 300, 0)).isApprox(Eigen::Vector3d(5001, 0, 0)));
 }
 
+TEST(RemoveApartFrom, TakesAwayWhatAnEarlierRunLeftAndNothingElse) {
+    const TemporaryFolder folder;
+    for (const char* name : {"set-2", "set-3", "set-4"})
+        std::filesystem::create_directories(folder / name);
+    std::ofstream(folder / "set-2/run.json") << "{}";
+    std::ofstream(folder / "set-3/run.json") << "{}";
+    std::ofstream(folder / "set-4/notes.txt") << "mine";
+    remove_apart_from(folder.path(), 1);
+    EXPECT_EQ(folder_of_apart(0), "set-2");
+    EXPECT_THAT(names_in(folder.path()), UnorderedElementsAre("set-2", "set-4"));
+}
+
 TEST(WriteRegistration, NeedsAPoseSlotPerScan) {
     const TemporaryFolder folder;
     Reconstruction result = registered(two_scans());

@@ -60,8 +60,11 @@ TEST_F(PlaceScans, SetsThatNothingJoinsAreReportedAndNotForcedTogether) {
         EXPECT_THAT(*result.map_from_scan[scan],
                     TransformNear(poses_[1].inverse() * poses_[scan], 1e-6, 1e-6));
     }
-    for (const std::size_t scan : {0U, 2U})
+    for (const std::size_t scan : {0U, 2U}) {
         EXPECT_FALSE(result.map_from_scan[scan]);
+        EXPECT_THAT(*result.apart_from_scan[scan], TransformNear(from_first(scan), 1e-6, 1e-6));
+    }
+    EXPECT_FALSE(result.apart_from_scan[3]);
     EXPECT_EQ(result.links.size(), 4U);
     EXPECT_NEAR(result.residuals[2], 0.002, 1e-12);
     EXPECT_NEAR(result.residuals[1], std::sqrt((9.0 + 16.0) / 2.0) * 1e-3, 1e-12);
@@ -82,12 +85,23 @@ TEST_F(PlaceScans, AcceptedLinksComeBeforeAmbiguousOnes) {
     RegistrationLink wrong = link(2, 0, LinkVerdict::ambiguous);
     wrong.target_from_source.translation().x() += 1.0;
     wrong.probability = 1.0;
+    RegistrationLink likely = link(3, 2, LinkVerdict::ambiguous);
+    likely.probability = min_probability_to_place;
     const Registration result =
-        place_scans({link(1, 0), wrong, link(2, 1), link(3, 2, LinkVerdict::ambiguous)}, 4, {},
-                    KnownPoseUse::prior, noise);
+        place_scans({link(1, 0), wrong, link(2, 1), likely}, 4, {}, KnownPoseUse::prior, noise);
     EXPECT_THAT(*result.map_from_scan[2], TransformNear(from_first(2), 1e-6, 1e-6));
     EXPECT_THAT(*result.map_from_scan[3], TransformNear(from_first(3), 1e-6, 1e-6));
     EXPECT_THAT(result.is_doubtful, ElementsAre(false, false, false, true));
+}
+
+TEST_F(PlaceScans, LinksThatAreLikelierWrongPlaceNothingUnlessAsked) {
+    RegistrationLink unlikely = link(1, 0, LinkVerdict::ambiguous);
+    unlikely.probability = 0.4;
+    const Registration apart = place_scans({unlikely}, 2, {}, KnownPoseUse::prior, noise);
+    EXPECT_THAT(apart.components, ElementsAre(ElementsAre(0), ElementsAre(1)));
+    const Registration joined = place_scans({unlikely}, 2, {}, KnownPoseUse::prior, noise, 0.0);
+    EXPECT_THAT(joined.components, ElementsAre(ElementsAre(0, 1)));
+    EXPECT_TRUE(joined.is_doubtful[1]);
 }
 
 TEST_F(PlaceScans, AWeakPriorYieldsToLinksAndHoldsWhatTheyLeaveFree) {

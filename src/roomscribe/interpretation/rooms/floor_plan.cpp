@@ -332,8 +332,8 @@ void PlanDrawer::draw_barrier(const UprightSurface& surface) {
         return !has_level_behind(place, normal) ||
                (!sample_.normals_face_scanner && !has_level_behind(place, -normal));
     };
-    const bool is_tall = surface.height() >= settings_.min_wall_height &&
-                         surface.top >= floor_ + settings_.min_closing_top;
+    const bool is_high = surface.top >= floor_ + settings_.min_closing_top;
+    const bool is_tall = surface.height() >= settings_.min_wall_height && is_high;
     std::vector<bool> parts(count, false);
     for (std::size_t i = 0; i < count; ++i) {
         const double middle = static_cast<double>(i) + 0.5;
@@ -342,7 +342,7 @@ void PlanDrawer::draw_barrier(const UprightSurface& surface) {
         const bool has_lintel =
             ceiling &&
             (slices[i] & slices_between(top - settings_.ceiling_reach, top + slice_height)) != 0;
-        const bool is_body = !ceiling && share_of(slices[i], body) >= 0.6;
+        const bool is_body = !ceiling && is_high && share_of(slices[i], body) >= 0.6;
         const bool is_last = is_tall && std::popcount(slices[i]) >= min_slices && closes(middle);
         parts[i] = has_lintel || is_body || is_last;
     }

@@ -40,8 +40,8 @@ constexpr double seat_area = 0.2;
 /// much like tables and clutter on a floor. Among the latter, clutter is the most dependable;
 /// furniture and doors are told by size alone and only break ties. The mount of a
 /// camera outweighs a lone wall, which has few levels, and yields to a room seen whole.
-constexpr std::array<double, num_upright_evidence> evidence_weights{4.0, 3.0, 1.5, 0.25, 0.5,
-                                                                    2.0, 1.0, 1.0, 1.0,  1.5, 4.0};
+constexpr std::array<double, num_upright_evidence> evidence_weights{4.0, 3.0, 1.5, 0.25, 0.5, 2.0,
+                                                                    1.0, 1.0, 1.0, 1.5,  4.0};
 
 /// (a - b) / (a + b), drawn to 0 where both are smaller than `scale`.
 double contrast(double a, double b, double scale) {
@@ -309,7 +309,8 @@ Upright find_upright(const SurfaceSample& sample, std::span<const PlanarPatch> p
     // With one plane only, the other two axes are arbitrary and cannot be up, unless the scanner
     // says which of them is.
     const bool has_one_plane = found_axes.stop == PrincipalAxesStop::one_plane;
-    const PrincipalAxes axes = has_one_plane ? turned_upright(found_axes, sample.usual_up) : found_axes;
+    const PrincipalAxes axes =
+        has_one_plane ? turned_upright(found_axes, sample.usual_up) : found_axes;
     const int num_axes = has_one_plane && sample.usual_up.isZero() ? 1 : 3;
     const std::vector<Eigen::Vector3f> clutter = find_clutter(sample, patches);
     std::vector<AxisProfile> profiles;
@@ -324,8 +325,8 @@ Upright find_upright(const SurfaceSample& sample, std::span<const PlanarPatch> p
         for (const double sign : {1.0, -1.0}) {
             const Eigen::Vector3d up = sign * axes.axes.col(axis);
             const double supported = supported_share(clutter, profile, sample, patches, up);
-            result.candidates.push_back(judge(up, without_table_as_level(profile), worst_slanted,
-                                              supported, sample));
+            result.candidates.push_back(
+                judge(up, without_table_as_level(profile), worst_slanted, supported, sample));
             reverse(profile);
         }
     }

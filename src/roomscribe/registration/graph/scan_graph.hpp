@@ -21,13 +21,15 @@ struct ScanGraphSettings {
     int max_closures = 4;
 
     void visit(SettingVisitor& visitor) {
-        visitor(max_partners,
-                {.name = "max_partners",
-                 .unit = "",
-                 .min = 1,
-                 .max = 1000,
-                 .doc = "Other scans that a scan is registered to without a guess, at most, while they do "
-                        "not hang together yet."});
+        visitor(
+            max_partners,
+            {.name = "max_partners",
+             .unit = "",
+             .min = 1,
+             .max = 1000,
+             .doc =
+                 "Other scans that a scan is registered to without a guess, at most, while they do "
+                 "not hang together yet."});
         visitor(max_closures,
                 {.name = "max_closures",
                  .unit = "",

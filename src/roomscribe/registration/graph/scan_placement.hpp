@@ -33,7 +33,6 @@ inline constexpr double min_probability_to_place = 0.5;
 Registration place_scans(std::vector<RegistrationLink> links, std::size_t num_scans,
                          std::span<const std::optional<KnownPose>> known, KnownPoseUse use,
                          double noise, double min_ambiguous = min_probability_to_place,
-                         const PoseGraphSettings& settings = {},
-                         const Context& context = {});
+                         const PoseGraphSettings& settings = {}, const Context& context = {});
 
 }  // namespace roomscribe
