@@ -2,6 +2,7 @@
 #include "roomscribe/registration/pair/pair_registration.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <numeric>
 #include <vector>
@@ -132,6 +133,36 @@ TEST_F(RegisterPairOfScans, IsRejectedBetweenOtherRooms) {
         this->link(test::simulate_scan(test::other_room(), pose, 7, coarseness), target);
     EXPECT_NE(link.verdict, LinkVerdict::accepted);
     EXPECT_LT(link.probability, 0.5);
+}
+
+/// What a camera sees of the scan that looks along its x and is rolled about that, in the camera's
+/// own frame: x right, y down, z forward.
+Scan frame_of(const Scan& scan, double roll) {
+    Eigen::Matrix3d optical_from_scan;
+    optical_from_scan << 0, -1, 0, 0, 0, -1, 1, 0, 0;
+    optical_from_scan =
+        Eigen::AngleAxisd(roll, Vector3d::UnitZ()).toRotationMatrix() * optical_from_scan;
+    Scan frame;
+    for (const Eigen::Vector3f& point : scan.cloud.positions) {
+        if (point.x() > 0.6F * point.norm())
+            frame.cloud.positions.emplace_back(optical_from_scan.cast<float>() * point);
+    }
+    return frame;
+}
+
+TEST(RegisterPairOfFrames, TakesNoPoseThatLaysACameraOnItsSide) {
+    const Scan target = frame_of(scan_from({1.3, 2.2, 1.4}, 1), 0.0);
+    const auto register_rolled = [&](double roll) {
+        const Scan source = frame_of(scan_from({1.5, 2.0, 1.5}, 2), roll);
+        return register_pair(prepare(source), prepare(target), 1);
+    };
+    const auto turned_by = [](const RegistrationLink& link) {
+        return Eigen::AngleAxisd(link.target_from_source.linear()).angle();
+    };
+    EXPECT_NEAR(turned_by(register_rolled(radians(20.0))), radians(20.0), radians(1.0));
+    const RegistrationLink on_its_side = register_rolled(radians(90.0));
+    EXPECT_NE(on_its_side.verdict, LinkVerdict::accepted);
+    EXPECT_GT(std::abs(turned_by(on_its_side) - radians(90.0)), radians(5.0));
 }
 
 }  // namespace

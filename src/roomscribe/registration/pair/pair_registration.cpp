@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "roomscribe/registration/pair/pair_registration.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 #include <vector>
 
+#include "roomscribe/core/units.hpp"
 #include "roomscribe/registration/pair/pose_probability.hpp"
 #include "roomscribe/registration/pair/pose_proposal.hpp"
 #include "roomscribe/registration/pair/pose_search.hpp"
@@ -11,6 +14,15 @@
 
 namespace roomscribe {
 namespace {
+
+/// Whether both scans are a camera's and the pose turns one on its side against the other.
+bool tilts_a_camera(const PreparedScan& source, const PreparedScan& target,
+                    const Transform& target_from_source) {
+    if (!source.usual_up.is_camera || !target.usual_up.is_camera) return false;
+    constexpr double max_tilt = radians(60.0);
+    return target.usual_up.up.dot(target_from_source.linear() * source.usual_up.up) <
+           std::cos(max_tilt);
+}
 
 /// Whether the scans agree with the refined pose, if only because neither says much.
 bool is_tenable(const PoseSupport& support, const PairRegistrationSettings& settings) {
@@ -67,6 +79,22 @@ std::vector<const VerifiedPose*> find_rivals(const PreparedScan& source,
     return rivals;
 }
 
+/// Cameras are held upright, give or take 30 degrees each: a pose that turns one of them on its
+/// side against the other is none, whatever bears it out. It remains a rival.
+void put_tilted_last(const PreparedScan& source, const PreparedScan& target,
+                     std::vector<VerifiedPose>& poses) {
+    std::stable_partition(poses.begin(), poses.end(), [&](const VerifiedPose& pose) {
+        return !tilts_a_camera(source, target, pose.icp.target_from_source);
+    });
+}
+
+double best_evidence(std::span<const VerifiedPose* const> poses) {
+    double best = 0.0;
+    for (const VerifiedPose* pose : poses)
+        best = std::max(best, pose->support.evidence());
+    return best;
+}
+
 }  // namespace
 
 RegistrationLink register_pair(const PreparedScan& source, const PreparedScan& target,
@@ -95,19 +123,22 @@ RegistrationLink register_pair(const PreparedScan& source, const PreparedScan& t
         }
         sort_by_evidence(poses, settings.min_overlap);
     }
-    if (poses.empty()) {
+    put_tilted_last(source, target, poses);
+    if (poses.empty() || tilts_a_camera(source, target, poses[0].icp.target_from_source)) {
         RegistrationLink nothing;
         nothing.stop_reason = "no_candidate";
         return nothing;
     }
     const std::vector<const VerifiedPose*> rivals = find_rivals(source, poses, scale, settings);
     const double evidence = poses.front().support.evidence();
-    const double best_rival = rivals.empty() ? 0.0 : rivals.front()->support.evidence();
-    RegistrationLink link = link_of(poses.front(), {evidence, evidence - best_rival, is_listed},
-                                    source, target, scale, settings, context);
+    RegistrationLink link =
+        link_of(poses.front(), {evidence, evidence - best_evidence(rivals), is_listed}, source,
+                target, scale, settings, context);
     if (link.verdict == LinkVerdict::ambiguous) {
-        for (const VerifiedPose* rival : rivals)
-            link.rivals.push_back(rival->icp.target_from_source);
+        for (const VerifiedPose* rival : rivals) {
+            if (!tilts_a_camera(source, target, rival->icp.target_from_source))
+                link.rivals.push_back(rival->icp.target_from_source);
+        }
     }
     return link;
 }

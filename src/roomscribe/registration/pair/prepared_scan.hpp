@@ -9,6 +9,7 @@
 #include "roomscribe/core/context.hpp"
 #include "roomscribe/geometry/search_tree.hpp"
 #include "roomscribe/model/scan.hpp"
+#include "roomscribe/preprocessing/scanner_up.hpp"
 #include "roomscribe/registration/features/described_points.hpp"
 #include "roomscribe/registration/pair/free_space.hpp"
 #include "roomscribe/registration/pair/scan_features.hpp"
@@ -74,6 +75,7 @@ struct PreparedScan {
     bool free_space_is_valid = false;
     SurfaceGrid coarse_grid;                   ///< over the coarse points
     std::vector<SurfaceDirection> directions;  ///< of the coarse points
+    UsualUp usual_up;                          ///< in the scan's frame
 };
 
 /// The noise and the spacing of the worse of two scans.
