@@ -51,6 +51,7 @@ TEST(WallRelief, TellsWhereRaysEnded) {
     EXPECT_EQ(relief.at(15, 5).recess, 1U);
     EXPECT_EQ(relief.at(25, 5).through, 1U);
     EXPECT_EQ(relief.at(35, 5).hidden, 1U);
+    EXPECT_NEAR(*hidden_share(relief), 1.0 / (40 * 24), 1e-12);  // the casing hides nothing
     std::uint32_t total = 0;
     for (const ReliefCell& cell : relief.cells)
         total += cell.surface + cell.open() + cell.hidden;
@@ -77,6 +78,7 @@ TEST(WallRelief, PlacesPointsOfUnknownScanners) {
     map.sections.push_back({"map", 0, 3, std::nullopt});
     const WallRelief relief = measure(map);
     EXPECT_FALSE(relief.has_rays);
+    EXPECT_FALSE(hidden_share(relief));
     EXPECT_EQ(relief.at(5, 5).surface, 1U);
     EXPECT_EQ(relief.at(15, 5).recess, 1U);
     EXPECT_EQ(relief.at(25, 5).open(), 0U);

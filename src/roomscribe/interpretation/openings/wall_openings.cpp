@@ -69,6 +69,12 @@ struct OpenLeaf {
     double depth = 0.0;  ///< m behind the wall's face, of its hinges
 };
 
+/// What was found in one wall.
+struct OpenedWall {
+    std::vector<WallOpening> openings;
+    std::optional<double> hidden;  ///< share of the wall
+};
+
 class OpeningFinder {
   public:
     OpeningFinder(const ScanMap& map, std::span<const Ray> rays, const SurfaceSample& sample,
@@ -87,7 +93,7 @@ class OpeningFinder {
             extents_.push_back(is_upright(patch) ? extent_of(patch) : LeafExtent{});
     }
 
-    std::vector<WallOpening> look_at(std::size_t storey, std::size_t face) const;
+    OpenedWall look_at(std::size_t storey, std::size_t face) const;
 
   private:
     const StoreyLayout& layout(std::size_t storey) const { return surfaces_.storeys[storey]; }
@@ -409,7 +415,7 @@ void join_panes(std::vector<WallOpening>& openings) {
     }
 }
 
-std::vector<WallOpening> OpeningFinder::look_at(std::size_t storey, std::size_t number) const {
+OpenedWall OpeningFinder::look_at(std::size_t storey, std::size_t number) const {
     const StoreyLayout& rooms = layout(storey);
     const WallFace& face = rooms.faces[number];
     const auto& room = rooms.plan.rooms[static_cast<std::size_t>(face.room)];
@@ -424,7 +430,7 @@ std::vector<WallOpening> OpeningFinder::look_at(std::size_t storey, std::size_t 
     }
     join_panes(openings);
     add_flat_doors(storey, number, relief, openings);
-    return openings;
+    return {std::move(openings), hidden_share(relief)};
 }
 
 /// Of holes that may be windows behind blinds, or niches: only those are kept that look like a
@@ -482,14 +488,18 @@ Openings find_openings(const ScanMap& map, std::span<const Ray> rays, const Surf
         for (std::size_t face = 0; face < surfaces.storeys[storey].faces.size(); ++face)
             jobs.emplace_back(storey, face);
     }
-    std::vector<std::vector<WallOpening>> found(jobs.size());
+    std::vector<OpenedWall> found(jobs.size());
     parallel_for(context, jobs.size(), 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i)
             found[i] = finder.look_at(jobs[i].first, jobs[i].second);
     });
     std::vector<WallOpening> sides;
-    for (auto& of_face : found)
-        std::move(of_face.begin(), of_face.end(), std::back_inserter(sides));
+    for (std::size_t i = 0; i < jobs.size(); ++i) {
+        const auto [storey, face] = jobs[i];
+        const std::size_t wall = surfaces.storeys[storey].wall_of_face[face];
+        surfaces.surfaces[wall].component.evidence.occluded = found[i].hidden;
+        std::move(found[i].openings.begin(), found[i].openings.end(), std::back_inserter(sides));
+    }
     std::stable_sort(sides.begin(), sides.end(), [](const WallOpening& a, const WallOpening& b) {
         return merit(a) > merit(b);
     });

@@ -57,7 +57,8 @@ struct Openings {
 /// seen: passages have none. A hole above the floor that shows signs of glass, or is like one that
 /// does, is a window, but for mirrors, which `rays` tell (MirrorTest). Closed leaves nearly in the
 /// plane of their wall are found by find_flat_doors. What opens to both sides of a wall is one
-/// opening. Instances are counted on from `surfaces`, whose rooms learn their neighbours.
+/// opening. Instances are counted on from `surfaces`, whose rooms learn their neighbours and whose
+/// walls learn how much of them is hidden.
 Openings find_openings(const ScanMap& map, std::span<const Ray> rays, const SurfaceSample& sample,
                        std::span<const PlanarPatch> patches, RoomSurfaces& surfaces,
                        const Eigen::Matrix3d& room_from_map, double point_spacing,

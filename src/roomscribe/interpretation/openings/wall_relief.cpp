@@ -135,4 +135,13 @@ WallRelief measure_wall_relief(const ScanMap& map, const WallFace& face, const E
     return relief;
 }
 
+std::optional<double> hidden_share(const WallRelief& relief) {
+    if (!relief.has_rays || relief.cells.empty()) return std::nullopt;
+    const auto hidden =
+        std::count_if(relief.cells.begin(), relief.cells.end(), [](const ReliefCell& cell) {
+            return cell.hidden > 0 && cell.near == 0 && cell.surface == 0 && cell.open() == 0;
+        });
+    return static_cast<double>(hidden) / static_cast<double>(relief.cells.size());
+}
+
 }  // namespace roomscribe

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -61,5 +62,9 @@ struct WallRelief {
 /// `bottom`, `top`: m along up, between which the wall stands.
 WallRelief measure_wall_relief(const ScanMap& map, const WallFace& face, const Eigen::Vector3d& up,
                                double bottom, double top, double tolerance, double cell_size);
+
+/// Share of the wall that something stands before for all scanners that looked there, in [0, 1];
+/// casings and pictures, close to the wall, hide nothing. Empty where no rays were followed.
+std::optional<double> hidden_share(const WallRelief& relief);
 
 }  // namespace roomscribe
