@@ -19,10 +19,6 @@
 namespace roomscribe {
 namespace {
 
-std::string counted(std::size_t count, std::string_view one) {
-    return fmt::format("{} {}{}", with_separators(count), one, count == 1 ? "" : "s");
-}
-
 std::size_t num_listed(const Scene& scene) {
     return static_cast<std::size_t>(std::count_if(
         scene.components.begin(), scene.components.end(),
@@ -240,6 +236,7 @@ std::string render_html_report(const Reconstruction& reconstruction, const Repor
     html += check_list(reconstruction);
     html += section("Other maps", maps_apart(reconstruction));
     html += section("Pictures", pictures(reconstruction, info.picture_width, context));
+    html += section("Furniture", furniture_figures(reconstruction, context));
     html += section("Rooms", rooms_table(reconstruction));
     html += section("Components", components_table(reconstruction));
     html += section("Registration", links_table(reconstruction) + poses_table(reconstruction));

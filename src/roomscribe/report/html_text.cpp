@@ -65,6 +65,16 @@ std::string with_separators(std::uint64_t number) {
     return text;
 }
 
+std::string in_words(std::string_view name) {
+    std::string words(name);
+    std::replace(words.begin(), words.end(), '_', ' ');
+    return words;
+}
+
+std::string counted(std::size_t count, std::string_view one) {
+    return fmt::format("{} {}{}", with_separators(count), one, count == 1 ? "" : "s");
+}
+
 std::string decimal(double value, int decimals) {
     std::string text = fmt::format("{:.{}f}", value, decimals);
     if (text.front() != '-') return text;

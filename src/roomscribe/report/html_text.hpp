@@ -21,6 +21,12 @@ std::string encode_base64(std::span<const std::byte> bytes);
 /// 1234567 -> "1,234,567".
 std::string with_separators(std::uint64_t number);
 
+/// A name of files for people: "base_unit" is "base unit".
+std::string in_words(std::string_view name);
+
+/// "1 scan", "2 scans".
+std::string counted(std::size_t count, std::string_view one);
+
 /// A number with a true minus sign, and none before a zero.
 std::string decimal(double value, int decimals);
 

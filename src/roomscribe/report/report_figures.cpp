@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <vector>
 
 #include <fmt/format.h>
@@ -231,6 +232,62 @@ std::string scan_legend(const std::vector<MapSection>& sections) {
     return legend + "</ul>\n";
 }
 
+/// A piece with all that is mounted on it, however deep.
+std::vector<Component> piece_with_parts(const Scene& scene, const Component& piece) {
+    std::vector<Component> parts{piece};
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        for (const Component& component : scene.components) {
+            if (component.parent == parts[i].id) parts.push_back(component);
+        }
+    }
+    return parts;
+}
+
+/// Which way the piece looks, level: as most of its upright faces do, else as its fixtures are
+/// approached. Zero if neither tells.
+Eigen::Vector3d front_of(std::span<const Component> parts, const Eigen::Vector3d& up) {
+    constexpr double fixture_area = 0.01;  // any face outvotes fixtures
+    Eigen::Vector3d front = Eigen::Vector3d::Zero();
+    for (const Component& part : parts) {
+        if (part.grasp) front -= fixture_area * part.grasp->approach;
+        if (part.polygon.size() < 3) continue;
+        Eigen::Vector3d area = Eigen::Vector3d::Zero();
+        for (std::size_t i = 2; i < part.polygon.size(); ++i) {
+            area +=
+                0.5 *
+                (part.polygon[i - 1] - part.polygon[0]).cross(part.polygon[i] - part.polygon[0]);
+        }
+        if (std::abs(area.dot(up)) < 0.5 * area.norm()) front += area;
+    }
+    front -= front.dot(up) * up;
+    return front.norm() > 0.0 ? Eigen::Vector3d(front.normalized()) : Eigen::Vector3d::Zero();
+}
+
+/// m, about a piece on its picture.
+constexpr double piece_margin = 0.12;
+
+/// From before the piece; coordinates are metres from its lower left corner.
+RoomView piece_view(const OrientedBox& box, const Eigen::Vector3d& front, const Eigen::Vector3d& up,
+                    std::size_t width) {
+    RoomView view;
+    view.horizontal = {0, 1.0};
+    view.vertical = {2, 1.0};
+    Eigen::Matrix3d axes;
+    axes.row(0) = up.cross(front).transpose();
+    axes.row(1) = up.transpose();
+    axes.row(2) = front.transpose();
+    Eigen::Vector3d half = Eigen::Vector3d::Zero();
+    for (Eigen::Index i = 0; i < 3; ++i) {
+        half += 0.5 * box.size(i) * (axes * box.axes[static_cast<std::size_t>(i)]).cwiseAbs();
+    }
+    view.view.view_from_cloud.linear() = axes;
+    view.view.view_from_cloud.translation() = half - axes * box.center;
+    view.view.low = Eigen::Vector3d::Constant(-piece_margin);
+    view.view.high = 2.0 * half + Eigen::Vector3d::Constant(piece_margin);
+    view.view.width = width;
+    return view;
+}
+
 }  // namespace
 
 std::string plan_figure(const Reconstruction& reconstruction, std::size_t width,
@@ -290,6 +347,51 @@ std::string scans_figure(const Reconstruction& reconstruction, std::size_t width
         "Top view of the map, coloured by scan, with the scanner positions"};
     return figure(view, image, text, "", station_marks(reconstruction.map, view.view),
                   scan_legend(sections));
+}
+
+std::string furniture_figures(const Reconstruction& reconstruction, const Context& context) {
+    constexpr std::size_t max_pieces = 12;
+    constexpr std::size_t picture_width = 720;
+    constexpr double min_extent = 2.0 * piece_margin + 0.2;  // m, of what is worth a picture
+    const Scene& scene = reconstruction.scene;
+    const Eigen::Vector3d up = scene.room_from_map.linear().row(2).transpose();
+    std::vector<const Component*> pieces;
+    for (const Component& component : scene.components) {
+        if (component.label == Label::furniture && component.box) pieces.push_back(&component);
+    }
+    std::stable_sort(pieces.begin(), pieces.end(), [](const Component* a, const Component* b) {
+        return a->box->size.prod() > b->box->size.prod();
+    });
+    std::string html;
+    std::size_t num_drawn = 0;
+    for (const Component* piece : pieces) {
+        Scene alone;
+        alone.room_from_map = scene.room_from_map;
+        alone.components = piece_with_parts(scene, *piece);
+        const Eigen::Vector3d front = front_of(alone.components, up);
+        if (front.isZero()) continue;
+        const RoomView view = piece_view(*piece->box, front, up, picture_width);
+        if ((view.view.high - view.view.low).head<2>().minCoeff() < min_extent) continue;
+        const Image image =
+            draw_cloud(reconstruction.map.cloud.positions, color_by_label(reconstruction, true),
+                       view.view, PictureStyle::surface, context);
+        const auto num_fixtures =
+            std::count_if(alone.components.begin(), alone.components.end(),
+                          [](const Component& part) { return part.label == Label::handle; });
+        const std::string name = escape_html(piece->id);
+        const std::string kind = escape_html(in_words(piece->kind));
+        const Eigen::Vector3d extent = view.view.high - view.view.low;
+        html += figure(
+            view, image,
+            {name,
+             fmt::format("{}{:.2f} &#215; {:.2f} m, {}", kind.empty() ? kind : kind + ", ",
+                         extent.x() - 2.0 * piece_margin, extent.y() - 2.0 * piece_margin,
+                         counted(static_cast<std::size_t>(num_fixtures), "handle")),
+             fmt::format("{} from its front with the outlines of its faces and handles", name)},
+            component_shapes(alone, view.view), "", "");
+        if (++num_drawn == max_pieces) break;
+    }
+    return html.empty() ? html : "<div class=\"pieces\">\n" + html + "</div>\n";
 }
 
 std::string label_legend(const Reconstruction& reconstruction) {

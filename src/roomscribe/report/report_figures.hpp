@@ -21,6 +21,10 @@ std::string section_figure(const Reconstruction& reconstruction, std::size_t wid
 std::string scans_figure(const Reconstruction& reconstruction, std::size_t width,
                          const Context& context);
 
+/// The largest pieces of furniture that have faces or fixtures, each seen from its front, like the
+/// paper's figures 5 and 6. Empty if there are none.
+std::string furniture_figures(const Reconstruction& reconstruction, const Context& context);
+
 /// What the label colours of plan and section mean, with points and components per label.
 std::string label_legend(const Reconstruction& reconstruction);
 

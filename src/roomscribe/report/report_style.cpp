@@ -52,6 +52,10 @@ figcaption { margin: 0 0 1rem; }
 figcaption strong { display: block; font-size: 1.05rem; font-weight: 600; }
 figcaption span { color: var(--soft); }
 .plot { max-width: max(24rem, calc(var(--aspect) * 44rem)); }
+.pieces { display: grid; grid-template-columns: repeat(auto-fill, minmax(20rem, 1fr)); gap: 0 2.5rem; }
+.pieces figure { margin-bottom: 2rem; }
+.pieces .scale { display: none; }
+.pieces .plot { max-width: max(11rem, calc(var(--aspect) * 22rem)); }
 .frame { position: relative; margin: 0 0 1.9rem 2.6rem; }
 .canvas { position: relative; aspect-ratio: var(--aspect); background: var(--panel);
   border-radius: .3rem; overflow: hidden; }

@@ -23,12 +23,6 @@ namespace {
 constexpr std::string_view times = "&#8239;&#215;&#8239;";
 constexpr std::string_view dash = "&#8211;";
 
-std::string in_words(std::string_view name) {
-    std::string words(name);
-    std::replace(words.begin(), words.end(), '_', ' ');
-    return words;
-}
-
 /// Normal of a polygon, as long as twice its area (Newell's method).
 Eigen::Vector3d newell_normal(const std::vector<Eigen::Vector3d>& polygon) {
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();

@@ -218,6 +218,45 @@ TEST(RenderHtmlReport, LeavesOutWhatIsNotThere) {
     EXPECT_EQ(find_unbalanced_tag(nothing), "");
 }
 
+TEST(RenderHtmlReport, ShowsPiecesOfFurnitureThatHaveFrontsFromTheFront) {
+    Reconstruction result = small_room();
+    Component piece;
+    piece.id = "furniture-1";
+    piece.label = Label::furniture;
+    piece.kind = "base_unit";
+    piece.box =
+        OrientedBox{{1.0, 1.0, 0.45},
+                    {Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitY(), Eigen::Vector3d::UnitZ()},
+                    {1.2, 0.6, 0.9}};
+    Component front;
+    front.id = "furniture-2";
+    front.label = Label::furniture;
+    front.parent = piece.id;
+    front.polygon = {{0.4, 0.7, 0.1}, {1.6, 0.7, 0.1}, {1.6, 0.7, 0.9}, {0.4, 0.7, 0.9}};
+    Component handle;
+    handle.id = "handle-1";
+    handle.label = Label::handle;
+    handle.parent = front.id;
+    handle.box = OrientedBox{{1.0, 0.67, 0.8}, piece.box->axes, {0.2, 0.02, 0.02}};
+    result.scene.components.push_back(piece);
+    EXPECT_THAT(render_html_report(result, small_info()), Not(HasSubstr("<h2>Furniture</h2>")));
+    result.scene.components.push_back(front);
+    result.scene.components.push_back(handle);
+    const std::string html = render_html_report(result, small_info());
+    EXPECT_THAT(html, HasSubstr("<h2>Furniture</h2>"));
+    EXPECT_THAT(html, HasSubstr("base unit, 1.20 &#215; 0.90 m, 1 handle"));
+    EXPECT_EQ(find_unbalanced_tag(html), "");
+}
+
+TEST(RenderHtmlReport, LeadsToMapsThatCouldNotBeJoined) {
+    Reconstruction result = small_room();
+    result.registration->components = {{0}, {1}};
+    result.apart.emplace_back().map.sections.push_back({"<second>.ply", 0, 0, std::nullopt});
+    const std::string html = render_html_report(result, small_info());
+    EXPECT_THAT(html, HasSubstr("<a href=\"set-2/report.html\">set-2</a>: &lt;second&gt;.ply"));
+    EXPECT_THAT(html, HasSubstr("2 sets that no link joins"));
+}
+
 TEST(RenderHtmlReport, NamesAScanWithoutAPlace) {
     Reconstruction result = small_room();
     result.registration->map_from_scan[1].reset();
