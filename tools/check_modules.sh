@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
 # Holds the modules against the floors of docs/architecture.md: a module depends on lower floors
-# only, includes only from modules in its DEPENDS, and its headers show no library but Eigen.
+# only, includes only from modules in its DEPENDS, and its headers show no library but Eigen and no
+# type that another header has.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
@@ -68,5 +69,11 @@ done < <(grep -rnE '^ *# *include +"' --include='*.[ch]pp' src/roomscribe)
 while IFS=: read -r file line text; do
     violation "$file:$line: a public header shows a library other than Eigen: $text"
 done < <(grep -rnE '^ *# *include +<[^>]*[./]' --include='*.hpp' src/roomscribe | grep -v '<Eigen/')
+
+# All modules share one namespace: two types of one name in it are undefined behaviour once linked.
+while read -r type; do
+    violation "$type is declared in two headers of src/roomscribe"
+done < <(grep -rhoE '^(struct|class|enum class) [A-Z][[:alnum:]]*( :[^{]*)?( final)? \{' --include='*.hpp' src/roomscribe |
+    sed -E 's/^(struct|enum class|class) ([[:alnum:]]+).*/\2/' | sort | uniq -d)
 
 ((num_violations == 0))

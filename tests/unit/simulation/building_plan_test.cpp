@@ -91,7 +91,7 @@ TEST(BuildingPlan, EveryKindOfThingComesUp) {
             num_glazed += opening.is_glazed ? 1 : 0;
             num_blinds += opening.blind > 0.0 ? 1 : 0;
         }
-        for (const WallFace& face : wall_faces(scenario.rooms)) {
+        for (const BuiltWallFace& face : wall_faces(scenario.rooms)) {
             num_slanted += face.along().cwiseAbs().minCoeff() > 0.05 ? 1 : 0;
         }
         if (kind == SceneKind::floor) {

@@ -242,7 +242,7 @@ TEST(Building, RefusesWhatCannotBeBuilt) {
 
 TEST(WallLayout, FindsTheFaceBehindAFace) {
     const Scenario scenario = two_rooms();
-    const std::vector<WallFace> faces = wall_faces(scenario.rooms);
+    const std::vector<BuiltWallFace> faces = wall_faces(scenario.rooms);
     const auto far = find_far_face(faces, 1, {4.0, 1.0});
     ASSERT_TRUE(far.has_value());
     EXPECT_EQ(faces[far->face].room, 1U);

@@ -51,7 +51,7 @@ std::vector<double> cut(double low, double high, std::vector<double> at, double 
 /// nothing.
 class WallSheet {
   public:
-    WallSheet(const WallFace& face, double floor, double ceiling, std::vector<WallArea> holes,
+    WallSheet(const BuiltWallFace& face, double floor, double ceiling, std::vector<WallArea> holes,
               double phase)
         : face_(face), holes_(std::move(holes)), phase_(phase) {
         std::vector<double> at_x;
@@ -102,7 +102,7 @@ class WallSheet {
         return {flat.x(), flat.y(), z_[j]};
     }
 
-    WallFace face_;
+    BuiltWallFace face_;
     std::vector<WallArea> holes_;
     double phase_;
     std::vector<double> x_;
@@ -170,8 +170,8 @@ void add_room(SimulatedWorld& world, const RoomPlan& plan, BuildingIndex& index,
 }
 
 void declare_walls(SimulatedWorld& world, const Scenario& scenario,
-                   const std::vector<WallFace>& faces, BuildingIndex& index) {
-    for (const WallFace& face : faces) {
+                   const std::vector<BuiltWallFace>& faces, BuildingIndex& index) {
+    for (const BuiltWallFace& face : faces) {
         const RoomPlan& room = scenario.rooms[face.room];
         const auto corner = [](const Vector2d& flat, double z) {
             return Vector3d(flat.x(), flat.y(), z);
@@ -187,7 +187,7 @@ void declare_walls(SimulatedWorld& world, const Scenario& scenario,
 }
 
 /// The hole that an opening leaves in a face that it goes through.
-WallArea hole_in(const WallFace& face, const OpeningPlan& opening, const OpeningSite& site) {
+WallArea hole_in(const BuiltWallFace& face, const OpeningPlan& opening, const OpeningSite& site) {
     const Vector2d middle = site.world_from_site.translation().head<2>();
     const double x = (middle - face.start).dot(face.along());
     const double half_width = hole_half_width(opening);
@@ -201,7 +201,7 @@ void connect_rooms(Scene& scene, std::size_t a, std::size_t b, const std::string
 }
 
 void add_openings(SimulatedWorld& world, const Scenario& scenario,
-                  const std::vector<WallFace>& faces, BuildingIndex& index) {
+                  const std::vector<BuiltWallFace>& faces, BuildingIndex& index) {
     for (const OpeningPlan& opening : scenario.openings) {
         const OpeningSite site =
             locate_opening(opening, scenario.rooms, faces, scenario.outer_wall_thickness);
@@ -221,7 +221,7 @@ void add_openings(SimulatedWorld& world, const Scenario& scenario,
 }
 
 /// Skirting boards run between the doorways.
-void add_skirting(SimulatedWorld& world, const WallFace& face, double floor,
+void add_skirting(SimulatedWorld& world, const BuiltWallFace& face, double floor,
                   const std::vector<WallArea>& holes, std::int32_t wall) {
     const std::uint32_t part = add_part(world, wall, Material::wood, label_bit(Label::unknown));
     std::vector<double> stops{0.0};
@@ -246,8 +246,9 @@ void add_skirting(SimulatedWorld& world, const WallFace& face, double floor,
     }
 }
 
-void add_walls(SimulatedWorld& world, const Scenario& scenario, const std::vector<WallFace>& faces,
-               const BuildingIndex& index, Random& random) {
+void add_walls(SimulatedWorld& world, const Scenario& scenario,
+               const std::vector<BuiltWallFace>& faces, const BuildingIndex& index,
+               Random& random) {
     for (std::size_t i = 0; i < faces.size(); ++i) {
         const RoomPlan& room = scenario.rooms[faces[i].room];
         const WallSheet sheet(faces[i], room.floor_height, room.ceiling_height,
@@ -274,11 +275,11 @@ double overhang(const Scenario& scenario, const Vector2d& corner, const Vector2d
 
 /// Outer faces keep rays that left through one window from coming in through the back of a wall.
 void add_outer_faces(SimulatedWorld& world, const Scenario& scenario,
-                     const std::vector<WallFace>& faces, const BuildingIndex& index) {
+                     const std::vector<BuiltWallFace>& faces, const BuildingIndex& index) {
     const std::uint32_t part = add_clutter_part(world, Material::facade);
     const double thickness = scenario.outer_wall_thickness;
     for (std::size_t i = 0; i < faces.size(); ++i) {
-        const WallFace& face = faces[i];
+        const BuiltWallFace& face = faces[i];
         const bool is_inner = find_far_face(faces, i, face.start + 0.02 * face.along()) ||
                               find_far_face(faces, i, (face.start + face.end) / 2.0) ||
                               find_far_face(faces, i, face.end - 0.02 * face.along());
@@ -287,8 +288,8 @@ void add_outer_faces(SimulatedWorld& world, const Scenario& scenario,
         const Vector2d outside = -thickness * face.inward();
         const double before = overhang(scenario, face.start + outside, -face.along());
         const double after = overhang(scenario, face.end + outside, face.along());
-        WallFace outer{face.room, face.start + outside - before * face.along(),
-                       face.end + outside + after * face.along()};
+        BuiltWallFace outer{face.room, face.start + outside - before * face.along(),
+                            face.end + outside + after * face.along()};
         std::vector<WallArea> holes = index.holes_of_face[i];
         for (WallArea& hole : holes) {
             hole.x_low += before;
@@ -341,7 +342,7 @@ void add_building(SimulatedWorld& world, const Scenario& scenario) {
         throw InvalidArgument("rooms", "none", "at least one room");
     }
     Random random(scenario.seed, 1);
-    const std::vector<WallFace> faces = wall_faces(scenario.rooms);
+    const std::vector<BuiltWallFace> faces = wall_faces(scenario.rooms);
     std::set<std::string_view> names;
     for (const RoomPlan& room : scenario.rooms) {
         if (!names.insert(room.name).second) {

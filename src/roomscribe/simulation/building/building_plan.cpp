@@ -81,7 +81,7 @@ OpeningPlan made_up_window(Random& random, double ceiling) {
 }
 
 /// True if nothing else of that wall, on either side of it, is in the way.
-bool is_free(const Scenario& scenario, const WallFace& face, double along, double half_width) {
+bool is_free(const Scenario& scenario, const BuiltWallFace& face, double along, double half_width) {
     constexpr double pier = 0.15;
     return std::none_of(scenario.openings.begin(), scenario.openings.end(),
                         [&](const OpeningPlan& other) {
@@ -93,7 +93,7 @@ bool is_free(const Scenario& scenario, const WallFace& face, double along, doubl
 }
 
 /// Height of the lower of the ceilings on both sides of a wall.
-double headroom(const Scenario& scenario, std::span<const WallFace> faces, std::size_t face,
+double headroom(const Scenario& scenario, std::span<const BuiltWallFace> faces, std::size_t face,
                 const Vector2d& at) {
     double height = scenario.rooms[faces[face].room].ceiling_height;
     if (const std::optional<FarFace> far = find_far_face(faces, face, at)) {
@@ -104,10 +104,10 @@ double headroom(const Scenario& scenario, std::span<const WallFace> faces, std::
 
 /// Sets the opening somewhere into a face between `low` and `high` of its length; false if there is
 /// no room for it.
-bool set_into_face(Scenario& scenario, std::span<const WallFace> faces, std::size_t face,
+bool set_into_face(Scenario& scenario, std::span<const BuiltWallFace> faces, std::size_t face,
                    OpeningPlan opening, Random& random, bool needs_outdoors) {
     constexpr double corner_distance = 0.12;
-    const WallFace& wall = faces[face];
+    const BuiltWallFace& wall = faces[face];
     const double half = hole_half_width(opening);
     const double low = half + corner_distance;
     const double high = wall.length() - half - corner_distance;
@@ -141,7 +141,7 @@ bool set_into_face(Scenario& scenario, std::span<const WallFace> faces, std::siz
 /// Windows of one kind, on one or two walls of a room as a rule, until about a sixth of its floor
 /// is glass (building codes ask for an eighth or a tenth).
 void add_windows(Scenario& scenario, std::size_t room, Random& random) {
-    const std::vector<WallFace> faces = wall_faces(scenario.rooms);
+    const std::vector<BuiltWallFace> faces = wall_faces(scenario.rooms);
     const RoomPlan& plan = scenario.rooms[room];
     const OpeningPlan type = made_up_window(random, plan.ceiling_height);
     const bool is_minor = plan.use == "bath" || plan.use == "storage";
@@ -169,7 +169,7 @@ void add_windows(Scenario& scenario, std::size_t room, Random& random) {
 }
 
 void add_niche(Scenario& scenario, std::size_t room, Random& random) {
-    const std::vector<WallFace> faces = wall_faces(scenario.rooms);
+    const std::vector<BuiltWallFace> faces = wall_faces(scenario.rooms);
     OpeningPlan niche;
     niche.kind = OpeningKind::niche;
     niche.width = random.uniform(0.4, 1.0);
@@ -186,7 +186,7 @@ void add_niche(Scenario& scenario, std::size_t room, Random& random) {
 /// A door, or now and then a passage, from a room to the room behind one of its faces.
 void add_way(Scenario& scenario, std::size_t room, std::size_t to, double chance_of_open,
              double chance_of_passage, Random& random) {
-    const std::vector<WallFace> faces = wall_faces(scenario.rooms);
+    const std::vector<BuiltWallFace> faces = wall_faces(scenario.rooms);
     OpeningPlan way = made_up_door(random, chance_of_open);
     if (happens(random, chance_of_passage)) {
         way.kind = OpeningKind::passage;
@@ -413,7 +413,8 @@ HallPlan floor_plan(Random& random) {
     return plan;
 }
 
-bool has_passable_way(const Scenario& scenario, std::size_t room, std::span<const WallFace> faces) {
+bool has_passable_way(const Scenario& scenario, std::size_t room,
+                      std::span<const BuiltWallFace> faces) {
     return std::any_of(
         scenario.openings.begin(), scenario.openings.end(), [&](const OpeningPlan& opening) {
             const bool is_way =
@@ -476,7 +477,7 @@ Scenario plan_building(SceneKind kind, std::uint64_t seed) {
 std::vector<std::size_t> rooms_to_scan(SceneKind kind, const Scenario& scenario) {
     std::vector<std::size_t> rooms{0};
     if (kind != SceneKind::flat && kind != SceneKind::floor) return rooms;
-    const std::vector<WallFace> faces = wall_faces(scenario.rooms);
+    const std::vector<BuiltWallFace> faces = wall_faces(scenario.rooms);
     for (std::size_t room = 1; room < scenario.rooms.size(); ++room) {
         if (has_passable_way(scenario, room, faces)) rooms.push_back(room);
     }

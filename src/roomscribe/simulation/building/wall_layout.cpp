@@ -22,7 +22,7 @@ struct PointOnFace {
     double distance = 0.0;  ///< into the room
 };
 
-PointOnFace place_on_face(const WallFace& face, const Vector2d& point) {
+PointOnFace place_on_face(const BuiltWallFace& face, const Vector2d& point) {
     const Vector2d offset = point - face.start;
     return {offset.dot(face.along()), offset.dot(face.inward())};
 }
@@ -41,8 +41,8 @@ void check_sizes(const OpeningPlan& opening) {
 
 }  // namespace
 
-std::vector<WallFace> wall_faces(std::span<const RoomPlan> rooms) {
-    std::vector<WallFace> faces;
+std::vector<BuiltWallFace> wall_faces(std::span<const RoomPlan> rooms) {
+    std::vector<BuiltWallFace> faces;
     for (std::size_t room = 0; room < rooms.size(); ++room) {
         const std::vector<Vector2d>& outline = rooms[room].outline;
         for (std::size_t i = 0; i < outline.size(); ++i) {
@@ -52,7 +52,7 @@ std::vector<WallFace> wall_faces(std::span<const RoomPlan> rooms) {
     return faces;
 }
 
-std::optional<FarFace> find_far_face(std::span<const WallFace> faces, std::size_t face,
+std::optional<FarFace> find_far_face(std::span<const BuiltWallFace> faces, std::size_t face,
                                      const Vector2d& point) {
     std::optional<FarFace> nearest;
     const Vector2d inward = faces[face].inward();
@@ -70,7 +70,7 @@ std::optional<FarFace> find_far_face(std::span<const WallFace> faces, std::size_
 }
 
 OpeningSite locate_opening(const OpeningPlan& opening, std::span<const RoomPlan> rooms,
-                           std::span<const WallFace> faces, double outer_wall_thickness) {
+                           std::span<const BuiltWallFace> faces, double outer_wall_thickness) {
     check_sizes(opening);
     for (std::size_t i = 0; i < faces.size(); ++i) {
         if (rooms[faces[i].room].name != opening.room) continue;

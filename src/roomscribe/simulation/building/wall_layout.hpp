@@ -14,7 +14,7 @@
 namespace roomscribe {
 
 /// One side of a room: the finished face of a wall. The room lies to the left of start -> end.
-struct WallFace {
+struct BuiltWallFace {
     std::size_t room = 0;
     Eigen::Vector2d start = Eigen::Vector2d::Zero();
     Eigen::Vector2d end = Eigen::Vector2d::Zero();
@@ -25,7 +25,7 @@ struct WallFace {
 };
 
 /// All faces, room by room, in the order of their outlines.
-std::vector<WallFace> wall_faces(std::span<const RoomPlan> rooms);
+std::vector<BuiltWallFace> wall_faces(std::span<const RoomPlan> rooms);
 
 /// The face behind a point of a face: parallel within 2 degrees, looking the other way, at most
 /// 0.6 m off (the thickest inner walls are load-bearing ones of about 0.5 m).
@@ -33,7 +33,7 @@ struct FarFace {
     std::size_t face = 0;
     double thickness = 0.0;  ///< m, of the wall between the two
 };
-std::optional<FarFace> find_far_face(std::span<const WallFace> faces, std::size_t face,
+std::optional<FarFace> find_far_face(std::span<const BuiltWallFace> faces, std::size_t face,
                                      const Eigen::Vector2d& point);
 
 /// Where in the walls an opening is.
@@ -51,7 +51,7 @@ struct OpeningSite {
 /// one of its faces, or the hole would not lie wholly within that face. That it also lies within
 /// the face behind is up to the scenario.
 OpeningSite locate_opening(const OpeningPlan& opening, std::span<const RoomPlan> rooms,
-                           std::span<const WallFace> faces, double outer_wall_thickness);
+                           std::span<const BuiltWallFace> faces, double outer_wall_thickness);
 
 /// A rectangle in the plane of a wall: x along it, z up. On a face x runs from its start and z is
 /// the world's; at an opening's site both are the site's.

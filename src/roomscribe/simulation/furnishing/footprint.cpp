@@ -56,7 +56,7 @@ Footprint footprint_of(const ItemPlan& item, const Eigen::AlignedBox3d& extent) 
             .high = item.elevation + extent.max().z()};
 }
 
-Footprint before_wall(const WallFace& wall, double low, double high, double depth) {
+Footprint before_wall(const BuiltWallFace& wall, double low, double high, double depth) {
     return {.center = wall.start + (low + high) / 2.0 * wall.along() + depth / 2.0 * wall.inward(),
             .axis = wall.along(),
             .half = {(high - low) / 2.0, depth / 2.0},
@@ -64,7 +64,7 @@ Footprint before_wall(const WallFace& wall, double low, double high, double dept
             .high = 0.0};
 }
 
-bool touches(const WallFace& face, const Footprint& footprint, double margin) {
+bool touches(const BuiltWallFace& face, const Footprint& footprint, double margin) {
     const std::array ends{face.start, face.end};
     if (is_apart(footprint, ends, margin)) return false;
     const Vector2d inward = face.inward();

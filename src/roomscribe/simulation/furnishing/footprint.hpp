@@ -27,10 +27,10 @@ struct Footprint {
 Footprint footprint_of(const ItemPlan& item, const Eigen::AlignedBox3d& extent);
 
 /// Before a stretch of a wall, `depth` deep; without heights.
-Footprint before_wall(const WallFace& wall, double low, double high, double depth);
+Footprint before_wall(const BuiltWallFace& wall, double low, double high, double depth);
 
 /// True if a wall comes nearer than `margin`.
-bool touches(const WallFace& wall, const Footprint& footprint, double margin);
+bool touches(const BuiltWallFace& wall, const Footprint& footprint, double margin);
 
 /// True if they come nearer than `margin` sideways and share some height.
 bool overlap(const Footprint& a, const Footprint& b, double margin);

@@ -56,7 +56,7 @@ std::optional<ItemPlan> Furnisher::place(const ItemPlan& item, const Demands& de
 
 std::size_t Furnisher::pick_wall(double min_length) {
     double total = 0.0;
-    for (const WallFace& wall : floor_.walls())
+    for (const BuiltWallFace& wall : floor_.walls())
         total += std::max(0.0, wall.length() - min_length);
     double at = random_.uniform(0.0, std::max(total, 1e-9));
     for (std::size_t i = 0; i < floor_.walls().size(); ++i) {
@@ -68,7 +68,7 @@ std::size_t Furnisher::pick_wall(double min_length) {
 
 std::optional<ItemPlan> Furnisher::place_at_wall(ItemPlan item, std::size_t wall, double along,
                                                  double gap, const Demands& demands) {
-    const WallFace& face = floor_.walls()[wall];
+    const BuiltWallFace& face = floor_.walls()[wall];
     item.at = face.start + along * face.along() + (gap + item.size.x() / 2.0) * face.inward();
     item.turn = heading(face.inward());
     return place(item, demands);
@@ -100,7 +100,7 @@ std::optional<ItemPlan> Furnisher::place_freely(const ItemPlan& item, const Dema
     ItemPlan plan = item;
     for (int attempt = 0; attempt < num_free_tries; ++attempt) {
         const std::size_t wall = pick_wall(0.0);
-        const WallFace& face = floor_.walls()[wall];
+        const BuiltWallFace& face = floor_.walls()[wall];
         const double along = pick(0.0, face.length());
         const double depth = pick(0.0, 1.0) * floor_.depth_at(wall, along);
         if (!std::isfinite(depth)) continue;
@@ -114,7 +114,7 @@ std::optional<ItemPlan> Furnisher::place_freely(const ItemPlan& item, const Dema
 std::optional<ItemPlan> Furnisher::place_in_the_middle(ItemPlan item, const Demands& demands) {
     for (int attempt = 0; attempt < num_free_tries; ++attempt) {
         const std::size_t wall = pick_wall(0.8);
-        const WallFace& face = floor_.walls()[wall];
+        const BuiltWallFace& face = floor_.walls()[wall];
         const double along = pick(0.35, 0.65) * face.length();
         const double depth = pick(0.35, 0.65) * floor_.depth_at(wall, along);
         if (!std::isfinite(depth)) continue;

@@ -48,7 +48,7 @@ void add_beam(Furnisher& f) {
     for (int attempt = 0; attempt < 6; ++attempt) {
         const auto wall =
             static_cast<std::size_t>(f.count(0, static_cast<int>(floor.walls().size()) - 1));
-        const WallFace& face = floor.walls()[wall];
+        const BuiltWallFace& face = floor.walls()[wall];
         if (face.length() < 1.5) continue;
         const double along = f.pick(0.25, 0.75) * face.length();
         const double span = clear_depth(floor, wall, along, beam.size.x() / 2.0) - 0.006;

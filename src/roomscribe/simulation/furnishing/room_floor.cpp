@@ -45,7 +45,7 @@ RoomFloor::RoomFloor(const RoomPlan& room, std::span<const OpeningPlan> openings
     std::vector<Vector2d> entries;
     for (const OpeningInRoom& opening : openings_) {
         if (opening.kind == OpeningKind::window || opening.kind == OpeningKind::niche) continue;
-        const WallFace& wall = walls_[opening.wall];
+        const BuiltWallFace& wall = walls_[opening.wall];
         entries.emplace_back(wall.start + opening.along * wall.along() +
                              entry_distance * wall.inward());
     }
@@ -74,7 +74,7 @@ void RoomFloor::note_openings(std::span<const OpeningPlan> openings) {
 
 void RoomFloor::note_opening(const OpeningPlan& opening, std::size_t wall_index, double along,
                              bool is_own) {
-    const WallFace& wall = walls_[wall_index];
+    const BuiltWallFace& wall = walls_[wall_index];
     const double floor = room_.floor_height;
     OpeningInRoom seen{.kind = opening.kind,
                        .wall = wall_index,
@@ -119,7 +119,7 @@ void RoomFloor::note_opening(const OpeningPlan& opening, std::size_t wall_index,
 
 bool RoomFloor::is_within_walls(const Footprint& footprint) const {
     return contains(room_.outline, footprint.center) &&
-           std::none_of(walls_.begin(), walls_.end(), [&](const WallFace& wall) {
+           std::none_of(walls_.begin(), walls_.end(), [&](const BuiltWallFace& wall) {
                return touches(wall, footprint, wall_margin);
            });
 }
@@ -183,7 +183,7 @@ bool RoomFloor::place(const ItemPlan& item, const Demands& demands) {
 }
 
 double RoomFloor::depth_at(std::size_t wall, double along) const {
-    const WallFace& from = walls_[wall];
+    const BuiltWallFace& from = walls_[wall];
     const Vector2d start = from.start + along * from.along();
     const Vector2d ray = from.inward();
     double nearest = std::numeric_limits<double>::infinity();

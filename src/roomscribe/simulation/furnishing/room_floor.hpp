@@ -43,7 +43,7 @@ class RoomFloor {
     RoomFloor(const RoomPlan& room, std::span<const OpeningPlan> openings, double free_share);
 
     const RoomPlan& room() const { return room_; }
-    const std::vector<WallFace>& walls() const { return walls_; }
+    const std::vector<BuiltWallFace>& walls() const { return walls_; }
     const std::vector<OpeningInRoom>& openings() const { return openings_; }
     const std::vector<ItemPlan>& items() const { return items_; }
     double area() const { return area_; }
@@ -69,7 +69,7 @@ class RoomFloor {
     bool is_clear_of_items(const Placed& item) const;
 
     RoomPlan room_;
-    std::vector<WallFace> walls_;
+    std::vector<BuiltWallFace> walls_;
     std::vector<OpeningInRoom> openings_;
     std::vector<Footprint> swings_;     ///< floor that doors need
     std::vector<Footprint> kept_free_;  ///< doorways, window boards: whatever the demands

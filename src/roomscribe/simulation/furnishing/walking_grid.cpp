@@ -17,7 +17,7 @@ constexpr std::size_t min_scanner_cells = 12;
 
 }  // namespace
 
-WalkingGrid::WalkingGrid(const RoomPlan& room, std::span<const WallFace> walls,
+WalkingGrid::WalkingGrid(const RoomPlan& room, std::span<const BuiltWallFace> walls,
                          std::span<const Eigen::Vector2d> entries) {
     const Eigen::AlignedBox2d bounds = bounds_of(room.outline);
     origin_ = bounds.min();
@@ -29,7 +29,7 @@ WalkingGrid::WalkingGrid(const RoomPlan& room, std::span<const WallFace> walls,
         const Vector2d point = cell_center(cell);
         if (!contains(room.outline, point)) continue;
         double nearest = std::numeric_limits<double>::infinity();
-        for (const WallFace& wall : walls)
+        for (const BuiltWallFace& wall : walls)
             nearest = std::min(nearest, distance_to_segment(point, wall.start, wall.end));
         if (nearest < walker_radius) continue;
         blocked_[cell] = 0;

@@ -18,7 +18,7 @@ namespace roomscribe {
 class WalkingGrid {
   public:
     /// `entries` are places before the doors.
-    WalkingGrid(const RoomPlan& room, std::span<const WallFace> walls,
+    WalkingGrid(const RoomPlan& room, std::span<const BuiltWallFace> walls,
                 std::span<const Eigen::Vector2d> entries);
 
     /// Takes an obstacle's floor away.

@@ -71,7 +71,7 @@ struct LeafSegment {
 };
 
 std::vector<LeafSegment> open_leaves(const Scenario& scenario) {
-    const std::vector<WallFace> faces = wall_faces(scenario.rooms);
+    const std::vector<BuiltWallFace> faces = wall_faces(scenario.rooms);
     std::vector<LeafSegment> leaves;
     for (const OpeningPlan& opening : scenario.openings) {
         if (opening.kind != OpeningKind::door || opening.leaf == LeafState::closed) continue;
