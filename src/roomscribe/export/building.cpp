@@ -55,7 +55,7 @@ std::optional<std::size_t> room_of(const Scene& scene, const Component& componen
     for (std::size_t i = 0; i < scene.rooms.size(); ++i) {
         const Room& room = scene.rooms[i];
         if (center->z() > room.floor_height - step && center->z() < room.ceiling_height + step &&
-            contains(plan_of_room(room), center->head<2>())) {
+            is_inside(plan_of_room(room), center->head<2>())) {
             return i;
         }
     }
@@ -137,8 +137,8 @@ std::optional<WallFace> wall_face(const Building& building, std::size_t index) {
     if (const auto room = building.room_of[index]) {
         const std::vector<Eigen::Vector2d> plan = plan_of_room(building.scene.rooms[*room]);
         const Eigen::Vector2d left(-along->y(), along->x());
-        const bool in_left = contains(plan, middle + side_step * left);
-        const bool in_right = contains(plan, middle - side_step * left);
+        const bool in_left = is_inside(plan, middle + side_step * left);
+        const bool in_right = is_inside(plan, middle - side_step * left);
         if (in_right && !in_left) along = -*along;
     }
     const Span span = span_of(component.polygon, middle, *along);
@@ -312,20 +312,23 @@ Building describe_building(const Scene& scene) {
     return building;
 }
 
-ComponentSize upright_size(const Component& component) {
-    const auto along = way_along(component.polygon);
-    if (!along) return {};
-    const Span span = span_of(component.polygon, Eigen::Vector2d::Zero(), *along);
-    // Across it in its plane, which may lean.
-    const Eigen::Vector3d normal = area_vector(component.polygon).normalized();
-    const Eigen::Vector3d up = normal.cross(Eigen::Vector3d(along->x(), along->y(), 0.0));
-    double low = std::numeric_limits<double>::infinity();
-    double high = -low;
-    for (const Eigen::Vector3d& corner : component.polygon) {
-        low = std::min(low, up.dot(corner));
-        high = std::max(high, up.dot(corner));
+ComponentSize flat_size(const Component& component) {
+    const Corners& corners = component.polygon;
+    if (corners.size() < 3) return {};
+    const Eigen::Vector3d normal = area_vector(corners).normalized();
+    Eigen::Vector3d along = corners[1] - corners[0];
+    if (const auto way = way_along(corners)) along = {way->x(), way->y(), 0.0};
+    along.normalize();
+    // In its plane, which may lean.
+    const Eigen::Vector3d across = normal.cross(along);
+    Eigen::Vector2d low = Eigen::Vector2d::Constant(std::numeric_limits<double>::infinity());
+    Eigen::Vector2d high = -low;
+    for (const Eigen::Vector3d& corner : corners) {
+        const Eigen::Vector2d place(along.dot(corner), across.dot(corner));
+        low = low.cwiseMin(place);
+        high = high.cwiseMax(place);
     }
-    return {span.to - span.from, high - low};
+    return {high.x() - low.x(), high.y() - low.y()};
 }
 
 BoxSize box_size(const OrientedBox& box) {

@@ -32,9 +32,7 @@ struct Opening {
     double bottom = 0.0;
     double top = 0.0;
 
-    std::size_t component() const {
-        return filling ? *filling : frame ? *frame : *passage;
-    }
+    std::size_t component() const { return filling ? *filling : frame ? *frame : *passage; }
 };
 
 /// A scene as builders see it. Indices are into `scene`, which is in the room frame.
@@ -54,13 +52,13 @@ struct Building {
 /// are given as they were measured, also where they reach beyond their wall.
 Building describe_building(const Scene& scene);
 
-/// Width and height of a door, window, frame or wall: along the horizontal in its plane, and across
-/// it. Zero for what has no polygon.
+/// Width and height of something flat that stands: along the horizontal in its plane, and across
+/// it. Of something that lies, along its first edge and across it. Zero for what has no polygon.
 struct ComponentSize {
     double width = 0.0;
     double height = 0.0;
 };
-ComponentSize upright_size(const Component& component);
+ComponentSize flat_size(const Component& component);
 
 /// Of the box: the longer horizontal axis, the shorter, the axis that is nearest to upright.
 struct BoxSize {

@@ -103,15 +103,15 @@ std::vector<PlanePolygon> without_rectangles(std::vector<PlanePolygon> pieces,
         if ((rectangle.high.array() <= rectangle.low.array()).any()) continue;
         std::vector<PlanePolygon> left;
         for (PlanePolygon& piece : pieces) {
-            const bool is_apart = std::all_of(piece.begin(), piece.end(), [&](const auto& p) {
-                return p.x() <= rectangle.low.x();
-            }) || std::all_of(piece.begin(), piece.end(), [&](const auto& p) {
-                return p.x() >= rectangle.high.x();
-            }) || std::all_of(piece.begin(), piece.end(), [&](const auto& p) {
-                return p.y() <= rectangle.low.y();
-            }) || std::all_of(piece.begin(), piece.end(), [&](const auto& p) {
-                return p.y() >= rectangle.high.y();
-            });
+            const bool is_apart =
+                std::all_of(piece.begin(), piece.end(),
+                            [&](const auto& p) { return p.x() <= rectangle.low.x(); }) ||
+                std::all_of(piece.begin(), piece.end(),
+                            [&](const auto& p) { return p.x() >= rectangle.high.x(); }) ||
+                std::all_of(piece.begin(), piece.end(),
+                            [&](const auto& p) { return p.y() <= rectangle.low.y(); }) ||
+                std::all_of(piece.begin(), piece.end(),
+                            [&](const auto& p) { return p.y() >= rectangle.high.y(); });
             if (is_apart) {
                 left.push_back(std::move(piece));
             } else {

@@ -167,7 +167,7 @@ Wall wall_of_group(const std::vector<WallFace>& faces, std::vector<std::size_t> 
 /// Where one end of a wall meets another wall.
 struct Meeting {
     WallJoin join;
-    double extension = 0.0;      ///< m, by which the axis grows to meet the other's
+    double extension = 0.0;       ///< m, by which the axis grows to meet the other's
     double half_thickness = 0.0;  ///< m along this axis, from the crossing to the other's face
 };
 

@@ -30,8 +30,8 @@ std::string_view thickness_source_name(ThicknessSource source);
 
 /// How the end of a wall, or its stretch, meets another.
 struct WallJoin {
-    std::size_t wall = 0;     ///< the other
-    bool at_start = false;    ///< of this one; else at its end
+    std::size_t wall = 0;   ///< the other
+    bool at_start = false;  ///< of this one; else at its end
     enum class Place : std::uint8_t { start, end, along } place = Place::along;  ///< on the other
 };
 

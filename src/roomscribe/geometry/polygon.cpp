@@ -57,7 +57,7 @@ Eigen::Vector3d area_vector(std::span<const Eigen::Vector3d> corners) {
     return 0.5 * twice_area;
 }
 
-bool contains(std::span<const Eigen::Vector2d> corners, const Eigen::Vector2d& place) {
+bool is_inside(std::span<const Eigen::Vector2d> corners, const Eigen::Vector2d& place) {
     bool inside = false;
     for (std::size_t i = 0; i < corners.size(); ++i) {
         const Eigen::Vector2d a = corners[i] - place;

@@ -25,6 +25,6 @@ double signed_area(std::span<const Eigen::Vector2d> corners);
 Eigen::Vector3d area_vector(std::span<const Eigen::Vector3d> corners);
 
 /// Whether a place lies inside a simple polygon, by the parity of the edges that a ray crosses.
-bool contains(std::span<const Eigen::Vector2d> corners, const Eigen::Vector2d& place);
+bool is_inside(std::span<const Eigen::Vector2d> corners, const Eigen::Vector2d& place);
 
 }  // namespace roomscribe
