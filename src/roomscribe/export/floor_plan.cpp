@@ -28,8 +28,8 @@ constexpr double kind_height = 0.085;
 /// Of common fonts, a letter's advance by its capitals' height.
 constexpr double letter_width = 0.85;
 /// Half the room that a name with its area takes.
-constexpr double label_half_width = 0.6;
-constexpr double label_half_height = 0.3;
+constexpr double label_half_width = 0.45;
+constexpr double label_half_height = 0.25;
 constexpr double tick = 0.06;
 /// From the wall to a dimension line beside it.
 constexpr double dimension_offset = 0.3;
@@ -283,7 +283,8 @@ class PlanDrawer {
         const double usual = usual_length(lines);
         std::optional<std::pair<double, Interval>> best;
         int least = std::numeric_limits<int>::max();
-        const Eigen::Vector2d half = turned({label_half_width, label_half_height + 0.1});
+        const Eigen::Vector2d half =
+            turned({label_half_width, label_half_height + dimension_height});
         for (const auto& [y, line] : lines) {
             if (!is_about(line.to - line.from, usual)) continue;
             int cost = std::abs(turned(label).y() - y) < half.y() ? 100 : 0;

@@ -108,9 +108,10 @@ class GlbWriter {
             const Mesh mesh = mesh_of(i);
             if (mesh.indices.empty()) continue;
             const Component& component = building_.scene.components[i];
+            const std::size_t mesh_index = add_mesh(component, mesh);
             const std::size_t node = add_node(component.id);
             Json& json = json_["nodes"][node];
-            json["mesh"] = add_mesh(component, mesh);
+            json["mesh"] = mesh_index;
             json["extras"] = {{"label", label_name(component.label)},
                               {"kind", component.kind},
                               {"parent", component.parent},
@@ -154,6 +155,8 @@ class GlbWriter {
                 high[i] = std::max(high[i], position[i]);
             }
         }
+        // References into an ordered object end where a key is added to it.
+        const std::size_t material_index = material(component.label);
         Json& accessors = json_["accessors"];
         const std::size_t first = accessors.is_null() ? 0 : accessors.size();
         accessors.push_back({{"bufferView", 0},
@@ -175,7 +178,7 @@ class GlbWriter {
             {{"name", component.id},
              {"primitives", Json::array({{{"attributes", {{"POSITION", first}}},
                                           {"indices", first + 1},
-                                          {"material", material(component.label)}}})}});
+                                          {"material", material_index}}})}});
         return json_["meshes"].size() - 1;
     }
 

@@ -2,6 +2,7 @@
 #include "roomscribe/export/walls.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -208,6 +209,43 @@ std::optional<Meeting> nearest_meeting(const std::vector<Wall>& walls, std::size
     return best;
 }
 
+/// Of the end and of the start of a wall.
+using EndMeetings = std::array<std::optional<Meeting>, 2>;
+
+/// Whether the end that a wall meets meets that wall in turn: a corner of two.
+bool is_mutual(const Meeting& met, std::size_t index, const std::vector<EndMeetings>& meetings) {
+    if (met.join.place == WallJoin::Place::along) return false;
+    const bool at_start = met.join.place == WallJoin::Place::start;
+    const std::optional<Meeting>& back = meetings[met.join.wall][at_start ? 1 : 0];
+    return back && back->join.wall == index && back->join.place != WallJoin::Place::along &&
+           (back->join.place == WallJoin::Place::start) == met.join.at_start;
+}
+
+void join_ends(Wall& wall, std::size_t index, const std::vector<EndMeetings>& meetings) {
+    const Eigen::Vector2d along = wall.along();
+    std::array<double, 2> extension{};
+    std::array<double, 2> overhang{};  // of the body, over the axis
+    for (const std::size_t at_start : {1, 0}) {
+        const std::optional<Meeting>& met = meetings[index][at_start];
+        if (!met) continue;
+        // At a corner the earlier wall goes through to the outer face of the other; all else ends
+        // at the near face.
+        const bool goes_through = index < met->join.wall && is_mutual(*met, index, meetings);
+        extension[at_start] = met->extension;
+        overhang[at_start] = goes_through ? met->half_thickness : -met->half_thickness;
+    }
+    const double new_length = wall.length() + extension[0] + extension[1];
+    // A stub between two thick walls keeps its own ends.
+    if (new_length <= 0.0 || new_length + overhang[0] + overhang[1] <= 0.0) return;
+    for (const std::size_t at_start : {1, 0}) {
+        if (meetings[index][at_start]) wall.joins.push_back(meetings[index][at_start]->join);
+    }
+    wall.start -= extension[1] * along;
+    wall.end += extension[0] * along;
+    wall.body_from = -overhang[1];
+    wall.body_to = new_length + overhang[0];
+}
+
 }  // namespace
 
 std::string_view thickness_source_name(ThicknessSource source) {
@@ -231,36 +269,11 @@ std::vector<Wall> pair_faces(const std::vector<WallFace>& faces) {
 
 void join_walls(std::vector<Wall>& walls) {
     const std::vector<Wall> before = walls;
-    for (std::size_t i = 0; i < walls.size(); ++i) {
-        Wall& wall = walls[i];
-        const Eigen::Vector2d along = before[i].along();
-        const double length = before[i].length();
-        double extension_at_start = 0.0;
-        double extension_at_end = 0.0;
-        double overhang_at_start = 0.0;  // of the body, over the axis
-        double overhang_at_end = 0.0;
-        for (const bool at_start : {true, false}) {
-            const std::optional<Meeting> met = nearest_meeting(before, i, at_start);
-            if (!met) continue;
-            wall.joins.push_back(met->join);
-            // At a corner the earlier wall goes through to the outer face of the other.
-            const bool goes_through =
-                met->join.place != WallJoin::Place::along && i < met->join.wall;
-            const double overhang = goes_through ? met->half_thickness : -met->half_thickness;
-            (at_start ? extension_at_start : extension_at_end) = met->extension;
-            (at_start ? overhang_at_start : overhang_at_end) = overhang;
-        }
-        const double new_length = length + extension_at_start + extension_at_end;
-        // A stub between two thick walls keeps its own ends.
-        if (new_length + std::min(0.0, overhang_at_start + overhang_at_end) <= 0.0) {
-            wall.joins.clear();
-            continue;
-        }
-        wall.start = before[i].start - extension_at_start * along;
-        wall.end = before[i].end + extension_at_end * along;
-        wall.body_from = -overhang_at_start;
-        wall.body_to = new_length + overhang_at_end;
-    }
+    std::vector<EndMeetings> meetings;
+    for (std::size_t i = 0; i < walls.size(); ++i)
+        meetings.push_back({nearest_meeting(before, i, false), nearest_meeting(before, i, true)});
+    for (std::size_t i = 0; i < walls.size(); ++i)
+        join_ends(walls[i], i, meetings);
 }
 
 }  // namespace roomscribe
