@@ -333,7 +333,7 @@ ComponentSize flat_size(const Component& component) {
 
 BoxSize box_size(const OrientedBox& box) {
     std::size_t upright = 0;
-    for (const std::size_t axis : {1, 2}) {
+    for (const std::size_t axis : {std::size_t{1}, std::size_t{2}}) {
         if (std::abs(box.axes[axis].z()) > std::abs(box.axes[upright].z())) upright = axis;
     }
     const auto size = [&](std::size_t axis) { return box.size(static_cast<Eigen::Index>(axis)); };

@@ -471,7 +471,7 @@ class IfcWriter {
         if ((box.size.array() <= 0.0).any()) return;
         const std::size_t storey = building_.storey_of[index];
         std::size_t up = 0;
-        for (const std::size_t axis : {1, 2}) {
+        for (const std::size_t axis : {std::size_t{1}, std::size_t{2}}) {
             if (std::abs(box.axes[axis].z()) > std::abs(box.axes[up].z())) up = axis;
         }
         const double sign = box.axes[up].z() < 0.0 ? -1.0 : 1.0;

@@ -225,7 +225,7 @@ void join_ends(Wall& wall, std::size_t index, const std::vector<EndMeetings>& me
     const Eigen::Vector2d along = wall.along();
     std::array<double, 2> extension{};
     std::array<double, 2> overhang{};  // of the body, over the axis
-    for (const std::size_t at_start : {1, 0}) {
+    for (const std::size_t at_start : {std::size_t{1}, std::size_t{0}}) {
         const std::optional<Meeting>& met = meetings[index][at_start];
         if (!met) continue;
         // At a corner the earlier wall goes through to the outer face of the other; all else ends
@@ -237,7 +237,7 @@ void join_ends(Wall& wall, std::size_t index, const std::vector<EndMeetings>& me
     const double new_length = wall.length() + extension[0] + extension[1];
     // A stub between two thick walls keeps its own ends.
     if (new_length <= 0.0 || new_length + overhang[0] + overhang[1] <= 0.0) return;
-    for (const std::size_t at_start : {1, 0}) {
+    for (const std::size_t at_start : {std::size_t{1}, std::size_t{0}}) {
         if (meetings[index][at_start]) wall.joins.push_back(meetings[index][at_start]->join);
     }
     wall.start -= extension[1] * along;
