@@ -8,7 +8,6 @@
 #include <filesystem>
 #include <memory>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include <fmt/chrono.h>
@@ -22,10 +21,12 @@
 #include "roomscribe/export/gltf.hpp"
 #include "roomscribe/export/ifc.hpp"
 #include "roomscribe/export/json.hpp"
+#include "roomscribe/export/labelled_points.hpp"
 #include "roomscribe/export/scene_graph.hpp"
 #include "roomscribe/export/schedules.hpp"
 #include "roomscribe/io/atomic_file.hpp"
 #include "roomscribe/io/byte_reader.hpp"
+#include "roomscribe/io/point_cloud_io.hpp"
 
 namespace roomscribe::cli {
 namespace {
@@ -42,16 +43,18 @@ struct ExportOptions {
 struct Result {
     Building building;
     fs::path scene_path;
+    Transform room_from_map;
 };
 
 Result read_result(const fs::path& folder) {
-    fs::path path = folder / "scene.json";
+    const fs::path path = folder / "scene.json";
     if (!fs::exists(path)) {
         throw IoError(folder.string(), "result", {}, "holds no scene.json",
                       "give the output folder of roomscribe run or interpret");
     }
     const MappedFile file(path, "scene JSON");
-    return {describe_building(scene_from_json(file.text(), path.string())), std::move(path)};
+    const Scene scene = scene_from_json(file.text(), path.string());
+    return {describe_building(scene), path, scene.room_from_map};
 }
 
 void write_glb(const Result& result, const fs::path& path) {
@@ -94,19 +97,39 @@ void write_graph(const Result& result, const fs::path& path) {
     write_file(path, "JSON", building_to_graph(result.building));
 }
 
+LabelledPoints read_points(const Result& result) {
+    const fs::path path = result.scene_path.parent_path() / "labels.ply";
+    return labelled_points(read_scan(path).cloud, result.room_from_map);
+}
+
+void write_scannet(const Result& result, const fs::path& path) {
+    write_point_cloud(path, scannet_cloud(read_points(result), result.building));
+}
+
+void write_s3dis(const Result& result, const fs::path& folder) {
+    const LabelledPoints points = read_points(result);
+    for (const S3disFile& file : s3dis_files(points, result.building)) {
+        const fs::path path = folder / file.path;
+        const OutputFolder output(path.parent_path());
+        write_file(path, "S3DIS", s3dis_text(points.cloud, file.points));
+    }
+}
+
 struct Target {
     std::string_view name;
     std::string_view place;  ///< in the result's folder, unless told otherwise
     void (*write)(const Result& result, const fs::path& path);
 };
 
-constexpr std::array<Target, 6> targets{{
+constexpr std::array<Target, 8> targets{{
     {"glb", "model.glb", write_glb},
     {"svg", "plan.svg", write_svg},
     {"dxf", "plan.dxf", write_dxf},
     {"ifc", "model.ifc", write_ifc},
     {"csv", "schedules", write_csv},
     {"graph", "graph.json", write_graph},
+    {"s3dis", "s3dis", write_s3dis},
+    {"scannet", "scannet.ply", write_scannet},
 }};
 
 ExitCode export_result(const ExportOptions& options, const std::atomic<bool>& cancel) {
@@ -154,8 +177,9 @@ void add_export_command(CLI::App& program, Action& action) {
         ->check(CLI::IsMember(names).description(""))
         ->required();
     verb.add_option("-o,--output", options->output,
-                    "File to write (csv: folder); folder, where several formats are given. Else "
-                    "OUT/model.glb, plan.svg, plan.dxf, model.ifc, schedules/, graph.json")
+                    "File to write (csv, s3dis: folder); folder, where several formats are given. "
+                    "Else OUT/model.glb, plan.svg, plan.dxf, model.ifc, schedules/, graph.json, "
+                    "s3dis/, scannet.ply")
         ->type_name("PATH");
     verb.footer(
         "All is in metres in the room frame: z up, floor at z = 0, x and y along the "
