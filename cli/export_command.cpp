@@ -164,6 +164,7 @@ void add_export_command(CLI::App& program, Action& action) {
         ->type_name("")
         ->required();
     std::vector<std::string> names;
+    names.reserve(targets.size());
     for (const Target& target : targets)
         names.emplace_back(target.name);
     verb.add_option(

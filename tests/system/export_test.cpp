@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -7,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "roomscribe/export/json.hpp"
+#include "roomscribe/io/point_cloud_io.hpp"
 #include "support/flat_of_two_rooms.hpp"
 #include "system/program.hpp"
 
@@ -93,6 +95,28 @@ TEST(ExportOfASimulatedFlat, IsReadByOthersAsTheSceneSays) {
                   .exit_code,
               0);
     read_with_others(folder / "truth");
+}
+
+TEST(ExportOfPoints, GivesEveryPointOnce) {
+    const TemporaryFolder folder;
+    const std::string scan = write_room_scans(folder.path(), 1).front();
+    const fs::path out = folder / "out";
+    ASSERT_EQ(roomscribe({"interpret", scan, "-o", out.string()}).exit_code, 0);
+    const ProgramResult result = roomscribe({"export", out.string(), "--to", "s3dis,scannet"});
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    const std::size_t num_points = finite_points(read_scan(out / "labels.ply").cloud).size();
+    EXPECT_EQ(read_scan(out / "scannet.ply").cloud.size(), num_points);
+    std::size_t in_rooms = 0;
+    std::size_t in_things = 0;
+    for (const auto& entry : fs::recursive_directory_iterator(out / "s3dis")) {
+        if (!entry.is_regular_file()) continue;
+        const std::string text = read_bytes(entry.path());
+        const auto lines = static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
+        const bool is_thing = entry.path().parent_path().filename() == "Annotations";
+        (is_thing ? in_things : in_rooms) += lines;
+    }
+    EXPECT_EQ(in_rooms, num_points);
+    EXPECT_EQ(in_things, num_points);
 }
 
 }  // namespace

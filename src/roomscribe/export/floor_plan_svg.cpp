@@ -23,7 +23,7 @@ text { font-family: "Helvetica Neue", Helvetica, Arial, "Liberation Sans", sans-
 .strong { font-weight: 600; }
 .halo { stroke: #fff; stroke-width: 0.9; stroke-linejoin: round; paint-order: stroke; }
 path, line { fill: none; stroke-linejoin: round; stroke-linecap: butt; }
-.ROOMS path { fill: #faf9f6; stroke: none; }
+.ROOMS path { fill: #faf9f6; stroke: #cfc8b8; stroke-width: 0.15; }
 .FURNITURE path { fill: #efece4; stroke: #a79f8e; stroke-width: 0.18; }
 .FURNITURE path.dashed { fill: none; }
 .FURNITURE text { fill: #857d6d; }

@@ -58,6 +58,7 @@ std::string IfcGeometry::box(const IfcPlace& place, const Eigen::Vector2d& low,
 std::string IfcGeometry::prism(const IfcPlace& place, const std::vector<Eigen::Vector2d>& corners,
                                double depth, std::optional<Label> color) {
     std::vector<std::string> points;
+    points.reserve(corners.size() + 1);
     for (const Eigen::Vector2d& corner : corners)
         points.push_back(point(corner));
     points.push_back(points.front());

@@ -227,6 +227,7 @@ std::vector<S3disFile> s3dis_files(const LabelledPoints& points, const Building&
             .push_back(index);
     }
     std::vector<S3disFile> files;
+    files.reserve(per_room.size() + per_thing.size());
     for (auto& [name, indices] : per_room)
         files.push_back({fmt::format("{0}/{0}.txt", name), std::move(indices)});
     std::map<std::pair<std::string, std::string>, int> count;
