@@ -6,7 +6,7 @@
 namespace roomscribe::test {
 namespace {
 
-constexpr double height = 2.5;
+constexpr double room_height = 2.5;
 
 Component make(const std::string& id, Label label, const std::string& parent) {
     Component component;
@@ -31,19 +31,19 @@ void add_room(Scene& scene, int number, double from, double to) {
     Room room;
     room.id = "room-" + suffix;
     room.polygon = {{from, 0, 0}, {to, 0, 0}, {to, 3, 0}, {from, 3, 0}};
-    room.ceiling_height = height;
+    room.ceiling_height = room_height;
     room.area = 3 * (to - from);
-    room.volume = height * room.area;
+    room.volume = room_height * room.area;
     scene.components.push_back(flat("floor-" + suffix, Label::floor, room.id, room.polygon));
     std::vector<Eigen::Vector3d> ceiling = room.polygon;
     for (Eigen::Vector3d& corner : ceiling)
-        corner.z() = height;
+        corner.z() = room_height;
     scene.components.push_back(flat("ceiling-" + suffix, Label::ceiling, room.id, ceiling));
     for (std::size_t i = 0; i < 4; ++i) {
         const Eigen::Vector3d along = room.polygon[(i + 1) % 4] - room.polygon[i];
         const std::string id = "wall-" + std::to_string(4 * (number - 1) + static_cast<int>(i) + 1);
         scene.components.push_back(
-            flat(id, Label::wall, room.id, upright_rectangle(room.polygon[i], along, height)));
+            flat(id, Label::wall, room.id, upright_rectangle(room.polygon[i], along, room_height)));
         room.walls.push_back(id);
     }
     room.neighbors = {{number == 1 ? "room-2" : "room-1", "door-1"}};

@@ -485,10 +485,12 @@ class IfcWriter {
         const Eigen::Vector2d half(0.5 * size(along), 0.5 * size((up + 2) % 3));
         const std::string body = geometry_.box({}, -half, half, size(up), component.label);
         const std::string shape = geometry_.shape({body});
+        // A type of its own must say which.
+        const std::string known_type = component.kind.empty() ? ".NOTDEFINED." : type;
         const std::string element =
             add_element(entity, component.id, component.kind,
                         geometry_.placement(storey_places_[storey], {origin, z, box.axes[along]}),
-                        shape, {type});
+                        shape, {known_type});
         contained_[storey].push_back(element);
         add_properties(element, component.id, properties_of(component));
     }

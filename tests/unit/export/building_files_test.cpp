@@ -64,17 +64,19 @@ Glb parse_glb(const std::string& bytes) {
 double area_of(const Glb& glb, const std::string& name) {
     for (const Json& node : glb.json.at("nodes")) {
         if (node.at("name") != name) continue;
-        const Json& primitive = glb.json.at("meshes")[node.at("mesh").get<int>()]["primitives"][0];
+        const Json& primitive =
+            glb.json.at("meshes")[node.at("mesh").get<std::size_t>()]["primitives"][0];
         const auto data = [&](const Json& index) {
-            const Json& accessor = glb.json["accessors"][index.get<int>()];
-            const Json& view = glb.json["bufferViews"][accessor["bufferView"].get<int>()];
+            const Json& accessor = glb.json["accessors"][index.get<std::size_t>()];
+            const Json& view = glb.json["bufferViews"][accessor["bufferView"].get<std::size_t>()];
             return view["byteOffset"].get<std::size_t>() +
                    accessor["byteOffset"].get<std::size_t>();
         };
         const std::size_t positions = data(primitive["attributes"]["POSITION"]);
         const std::size_t indices = data(primitive["indices"]);
         const auto num_indices =
-            glb.json["accessors"][primitive["indices"].get<int>()]["count"].get<std::size_t>();
+            glb.json["accessors"][primitive["indices"].get<std::size_t>()]["count"]
+                .get<std::size_t>();
         const auto corner = [&](std::size_t i) {
             std::array<float, 3> p{};
             const std::size_t index = number_at(glb.buffer, indices + 4 * i);
