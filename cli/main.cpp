@@ -16,6 +16,7 @@
 #include "cli/demo_command.hpp"
 #include "cli/evaluate_command.hpp"
 #include "cli/explain_command.hpp"
+#include "cli/export_command.hpp"
 #include "cli/info_command.hpp"
 #include "cli/interpret_command.hpp"
 #include "cli/interrupt.hpp"
@@ -56,6 +57,7 @@ void declare_verbs(CLI::App& program, Action& action) {
     add_convert_command(program, action);
     add_info_command(program, action);
     add_explain_command(program, action);
+    add_export_command(program, action);
     add_evaluate_command(program, action);
     add_simulate_command(program, action);
     add_suite_command(program, action);

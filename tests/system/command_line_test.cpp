@@ -18,8 +18,8 @@ TEST(CommandLine, PrintsShortHelpWithoutArguments) {
     const ProgramResult result = roomscribe({});
     EXPECT_EQ(result.exit_code, 0);
     EXPECT_EQ(result.err, "");
-    for (const char* verb : {"run", "register", "interpret", "convert", "info", "explain", "demo",
-                             "settings", "version"}) {
+    for (const char* verb : {"run", "register", "interpret", "convert", "info", "explain", "export",
+                             "demo", "settings", "version"}) {
         EXPECT_THAT(result.out, HasSubstr(verb));
     }
     EXPECT_LT(std::count(result.out.begin(), result.out.end(), '\n'), 40);

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include <Eigen/Geometry>
+
 namespace roomscribe {
 namespace {
 
@@ -46,6 +48,24 @@ double signed_area(std::span<const Eigen::Vector2d> corners) {
         twice_area += a.x() * b.y() - a.y() * b.x();
     }
     return 0.5 * twice_area;
+}
+
+Eigen::Vector3d area_vector(std::span<const Eigen::Vector3d> corners) {
+    Eigen::Vector3d twice_area = Eigen::Vector3d::Zero();
+    for (std::size_t i = 1; i + 1 < corners.size(); ++i)
+        twice_area += (corners[i] - corners[0]).cross(corners[i + 1] - corners[0]);
+    return 0.5 * twice_area;
+}
+
+bool is_inside(std::span<const Eigen::Vector2d> corners, const Eigen::Vector2d& place) {
+    bool inside = false;
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+        const Eigen::Vector2d a = corners[i] - place;
+        const Eigen::Vector2d b = corners[(i + 1) % corners.size()] - place;
+        if ((a.y() > 0.0) != (b.y() > 0.0) && (cross(a, b) > 0.0) == (b.y() > a.y()))
+            inside = !inside;
+    }
+    return inside;
 }
 
 }  // namespace roomscribe

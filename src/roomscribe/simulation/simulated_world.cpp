@@ -29,15 +29,6 @@ void add_triangle(SimulatedWorld& world, std::uint32_t part, std::uint32_t a, st
     world.part_of_triangle.push_back(part);
 }
 
-/// Twice the vector area: along the normal of a polygon whose corners run counter-clockwise.
-Vector3d area_vector(std::span<const Vector3d> corners) {
-    Vector3d sum = Vector3d::Zero();
-    for (std::size_t i = 1; i + 1 < corners.size(); ++i) {
-        sum += (corners[i] - corners[0]).cross(corners[i + 1] - corners[0]);
-    }
-    return sum;
-}
-
 bool is_ear(std::span<const Vector2d> corners, std::span<const std::uint32_t> ring,
             std::size_t tip) {
     const std::size_t count = ring.size();

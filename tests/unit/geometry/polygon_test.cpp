@@ -66,6 +66,23 @@ TEST(SignedArea, OfKnownShapes) {
                 1e-10);
 }
 
+TEST(AreaVector, StandsOnThePolygonAsLongAsItsArea) {
+    // An L of 3 m2 in the plane x = 5.
+    const std::vector<Eigen::Vector3d> corners = {{5, 0, 0}, {5, 2, 0}, {5, 2, 1},
+                                                  {5, 1, 1}, {5, 1, 2}, {5, 0, 2}};
+    EXPECT_TRUE(area_vector(corners).isApprox(Eigen::Vector3d(3, 0, 0)));
+    EXPECT_EQ(area_vector(std::span(corners).first(2)), Eigen::Vector3d::Zero());
+}
+
+TEST(IsInside, TellsTheNotchOfAnLFromItsArms) {
+    const std::vector<Eigen::Vector2d> corners = {{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}};
+    EXPECT_TRUE(is_inside(corners, {1.5, 0.5}));
+    EXPECT_TRUE(is_inside(corners, {0.5, 1.5}));
+    EXPECT_FALSE(is_inside(corners, {1.5, 1.5}));
+    EXPECT_FALSE(is_inside(corners, {-0.5, 1.0}));
+    EXPECT_FALSE(is_inside({}, {0, 0}));
+}
+
 TEST(BoundingBox, HoldsTheFinitePoints) {
     const std::vector<Eigen::Vector3f> points = {
         {1, -2, 3}, {NAN, 0, 0}, {-1, 5, 0}, {INFINITY, 0, 0}, {0, 0, 7}};

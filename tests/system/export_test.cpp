@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "roomscribe/export/json.hpp"
+#include "roomscribe/io/point_cloud_io.hpp"
+#include "support/flat_of_two_rooms.hpp"
+#include "system/program.hpp"
+
+namespace roomscribe::test {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+class Export : public testing::Test {
+  protected:
+    Export() { std::ofstream(folder_ / "scene.json") << scene_to_json(flat_of_two_rooms()); }
+    ProgramResult run_export(std::vector<std::string> options) const {
+        options.insert(options.begin(), {"export", folder_.path().string()});
+        return roomscribe(options);
+    }
+
+    TemporaryFolder folder_;
+};
+
+TEST_F(Export, WritesEveryFormatBesideTheResult) {
+    const ProgramResult result =
+        run_export({"--to", "glb,svg,dxf", "--to", "ifc", "--to", "csv", "--to", "graph"});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_EQ(result.err, "");
+    for (const char* name :
+         {"model.glb", "plan.svg", "plan.dxf", "model.ifc", "graph.json", "schedules/rooms.csv",
+          "schedules/walls.csv", "schedules/doors.csv", "schedules/windows.csv",
+          "schedules/furniture.csv", "schedules/handles.csv"}) {
+        EXPECT_GT(fs::file_size(folder_ / name), 0U) << name;
+    }
+    EXPECT_THAT(result.out, HasSubstr((folder_ / "model.ifc").string() + "\n"));
+    // The same result gives the same files.
+    const std::string ifc = read_bytes(folder_ / "model.ifc");
+    EXPECT_EQ(run_export({"--to", "ifc"}).exit_code, 0);
+    EXPECT_EQ(read_bytes(folder_ / "model.ifc"), ifc);
+    EXPECT_THAT(ifc, HasSubstr("FILE_NAME('model.ifc','20"));
+}
+
+TEST_F(Export, WritesWhereItIsTold) {
+    const std::string file = (folder_ / "flat.svg").string();
+    EXPECT_EQ(run_export({"--to", "svg", "-o", file}).exit_code, 0);
+    EXPECT_TRUE(fs::exists(file));
+    const fs::path other = folder_ / "a" / "b";
+    EXPECT_EQ(run_export({"--to", "svg,csv", "-o", other.string()}).exit_code, 0);
+    EXPECT_TRUE(fs::exists(other / "plan.svg"));
+    EXPECT_TRUE(fs::exists(other / "schedules" / "doors.csv"));
+    const fs::path tables = folder_ / "tables";
+    EXPECT_EQ(run_export({"--to", "csv", "-o", tables.string()}).exit_code, 0);
+    EXPECT_TRUE(fs::exists(tables / "doors.csv"));
+}
+
+TEST_F(Export, SaysWhatIsWrong) {
+    expect_error(run_export({"--to", "step"}), 2, {"--to", "step"});
+    expect_error(run_export({}), 2, {"--to"});
+    std::ofstream(folder_ / "scene.json") << "{";
+    expect_error(run_export({"--to", "ifc"}), 3, {"scene.json"});
+    fs::remove(folder_ / "scene.json");
+    expect_error(run_export({"--to", "ifc"}), 3, {"holds no scene.json"});
+    EXPECT_FALSE(fs::exists(folder_ / "model.ifc"));
+}
+
+/// Reads model.ifc and model.glb with programs that are not ours, and compares with scene.json.
+void read_with_others(const fs::path& folder) {
+    const ProgramResult written =
+        roomscribe({"export", folder.string(), "--to", "ifc", "--to", "glb"});
+    ASSERT_EQ(written.exit_code, 0) << written.err;
+    const fs::path node = ROOMSCRIBE_NODE;
+    if (!fs::exists(node)) GTEST_SKIP() << "node is not installed";
+    const ProgramResult read =
+        run_program(node, {ROOMSCRIBE_READERS "/read_exports.mjs", folder.string()});
+    constexpr int not_installed = 77;
+    if (read.exit_code == not_installed) GTEST_SKIP() << read.out;
+    EXPECT_EQ(read.exit_code, 0) << read.out << read.err;
+}
+
+TEST_F(Export, IsReadByOthersAsTheSceneSays) {
+    read_with_others(folder_.path());
+}
+
+TEST(ExportOfASimulatedFlat, IsReadByOthersAsTheSceneSays) {
+    const TemporaryFolder folder;
+    ASSERT_EQ(roomscribe({"simulate", "flat", "--coarseness", "12", "-o", folder.path().string()})
+                  .exit_code,
+              0);
+    read_with_others(folder / "truth");
+}
+
+TEST(ExportOfPoints, GivesEveryPointOnce) {
+    const TemporaryFolder folder;
+    const std::string scan = write_room_scans(folder.path(), 1).front();
+    const fs::path out = folder / "out";
+    ASSERT_EQ(roomscribe({"interpret", scan, "-o", out.string()}).exit_code, 0);
+    const ProgramResult result = roomscribe({"export", out.string(), "--to", "s3dis,scannet"});
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    const std::size_t num_points = finite_points(read_scan(out / "labels.ply").cloud).size();
+    EXPECT_EQ(read_scan(out / "scannet.ply").cloud.size(), num_points);
+    std::size_t in_rooms = 0;
+    std::size_t in_things = 0;
+    for (const auto& entry : fs::recursive_directory_iterator(out / "s3dis")) {
+        if (!entry.is_regular_file()) continue;
+        const std::string text = read_bytes(entry.path());
+        const auto lines = static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
+        const bool is_thing = entry.path().parent_path().filename() == "Annotations";
+        (is_thing ? in_things : in_rooms) += lines;
+    }
+    EXPECT_EQ(in_rooms, num_points);
+    EXPECT_EQ(in_things, num_points);
+}
+
+}  // namespace
+}  // namespace roomscribe::test
