@@ -62,28 +62,28 @@ std::optional<std::size_t> room_of(const Scene& scene, const Component& componen
     return std::nullopt;
 }
 
-std::vector<Storey> find_storeys(const std::vector<Room>& rooms) {
+std::vector<BuildingStorey> find_storeys(const std::vector<Room>& rooms) {
     std::vector<std::size_t> order(rooms.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
         return rooms[a].floor_height < rooms[b].floor_height;
     });
-    std::vector<Storey> storeys;
+    std::vector<BuildingStorey> storeys;
     for (const std::size_t i : order) {
         const Room& room = rooms[i];
         if (storeys.empty() || room.floor_height > storeys.back().elevation + half_storey)
             storeys.push_back({room.floor_height, 0.0, {}});
-        Storey& storey = storeys.back();
+        BuildingStorey& storey = storeys.back();
         storey.rooms.push_back(i);
         storey.height = std::max(storey.height, room.ceiling_height - storey.elevation);
     }
     if (storeys.empty()) storeys.emplace_back();
-    for (Storey& storey : storeys)
+    for (BuildingStorey& storey : storeys)
         std::sort(storey.rooms.begin(), storey.rooms.end());
     return storeys;
 }
 
-std::size_t storey_at(const std::vector<Storey>& storeys, double z) {
+std::size_t storey_at(const std::vector<BuildingStorey>& storeys, double z) {
     std::size_t storey = 0;
     while (storey + 1 < storeys.size() && storeys[storey + 1].elevation - step <= z)
         ++storey;
@@ -129,7 +129,7 @@ Span span_of(const Corners& corners, const Eigen::Vector2d& origin, const Eigen:
     return span;
 }
 
-std::optional<WallFace> wall_face(const Building& building, std::size_t index) {
+std::optional<FaceInPlan> wall_face(const Building& building, std::size_t index) {
     const Component& component = building.scene.components[index];
     std::optional<Eigen::Vector2d> along = way_along(component.polygon);
     if (!along) return std::nullopt;
@@ -143,14 +143,14 @@ std::optional<WallFace> wall_face(const Building& building, std::size_t index) {
     }
     const Span span = span_of(component.polygon, middle, *along);
     if (span.to - span.from < 1e-3 || span.top - span.bottom < 1e-3) return std::nullopt;
-    return WallFace{index, middle + span.from * *along, middle + span.to * *along, span.bottom,
-                    span.top};
+    return FaceInPlan{index, middle + span.from * *along, middle + span.to * *along, span.bottom,
+                      span.top};
 }
 
 std::vector<Wall> find_walls(const Building& building) {
     std::vector<Wall> walls;
     for (std::size_t storey = 0; storey < building.storeys.size(); ++storey) {
-        std::vector<WallFace> faces;
+        std::vector<FaceInPlan> faces;
         for (std::size_t i = 0; i < building.scene.components.size(); ++i) {
             if (building.scene.components[i].label != Label::wall) continue;
             if (building.storey_of[i] != storey) continue;
@@ -185,7 +185,7 @@ std::optional<std::size_t> wall_of(const Building& building, std::size_t compone
     for (std::size_t i = 0; i < building.walls.size(); ++i) {
         const Wall& wall = building.walls[i];
         const bool is_parent =
-            std::any_of(wall.faces.begin(), wall.faces.end(), [&](const WallFace& face) {
+            std::any_of(wall.faces.begin(), wall.faces.end(), [&](const FaceInPlan& face) {
                 return building.scene.components[face.component].id == opening.parent;
             });
         if (is_parent && way_along(opening.polygon)) return i;

@@ -14,7 +14,7 @@
 namespace roomscribe {
 
 /// Rooms whose floors lie about level.
-struct Storey {
+struct BuildingStorey {
     double elevation = 0.0;          ///< m, of its lowest floor, in the room frame
     double height = 0.0;             ///< m, from there to its highest ceiling
     std::vector<std::size_t> rooms;  ///< into Scene::rooms
@@ -38,7 +38,7 @@ struct Opening {
 /// A scene as builders see it. Indices are into `scene`, which is in the room frame.
 struct Building {
     Scene scene;
-    std::vector<Storey> storeys;  ///< from below; at least one
+    std::vector<BuildingStorey> storeys;  ///< from below; at least one
     std::vector<Wall> walls;
     std::vector<Opening> openings;
     /// Per component: by its parents, else the room that it stands in; empty where there is none.

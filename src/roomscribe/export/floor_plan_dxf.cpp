@@ -172,7 +172,7 @@ void add_text(DxfText& dxf, const PlanText& text, const Eigen::Vector2d& shift) 
 
 }  // namespace
 
-std::string plans_to_dxf(const std::vector<FloorPlan>& plans) {
+std::string plans_to_dxf(const std::vector<StoreyPlan>& plans) {
     const std::vector<double> shifts = plan_shifts(plans);
     Eigen::AlignedBox2d all;
     DxfText entities;

@@ -122,7 +122,7 @@ std::string text_svg(const PlanText& text, const Paper& paper) {
                        number(font_size * height), turn, escaped(text.text));
 }
 
-std::string storey_svg(const FloorPlan& plan, const Paper& paper) {
+std::string storey_svg(const StoreyPlan& plan, const Paper& paper) {
     std::string svg = fmt::format("<g class=\"storey\" data-title=\"{}\" data-elevation=\"{}\">\n",
                                   escaped(plan.title), number(plan.elevation));
     for (std::size_t i = 0; i < plan_layer_names.size(); ++i) {
@@ -158,7 +158,7 @@ std::string scale_bar(double x, double y) {
 
 }  // namespace
 
-std::string plans_to_svg(const std::vector<FloorPlan>& plans) {
+std::string plans_to_svg(const std::vector<StoreyPlan>& plans) {
     const std::vector<double> shifts = plan_shifts(plans);
     Eigen::AlignedBox2d all;
     for (std::size_t i = 0; i < plans.size(); ++i) {

@@ -243,7 +243,7 @@ class IfcWriter {
 
     /// A face that is no rectangle, under a slanted ceiling, gives the wall its elevation.
     const Component* slanted_face(const Wall& wall) const {
-        for (const WallFace& face : wall.faces) {
+        for (const FaceInPlan& face : wall.faces) {
             const Component& component = this->component(face.component);
             const double rectangle = (face.end - face.start).norm() * (face.top - face.bottom);
             const double area = area_vector(component.polygon).norm();
@@ -289,7 +289,7 @@ class IfcWriter {
         properties.emplace_back("ThicknessSource",
                                 label_value(thickness_source_name(wall.thickness_source)));
         for (std::size_t i = 0; i < wall.faces.size(); ++i) {
-            const WallFace& face = wall.faces[i];
+            const FaceInPlan& face = wall.faces[i];
             const ComponentSize size = flat_size(component(face.component));
             const std::string name = fmt::format("Face{}", i + 1);
             properties.emplace_back(name, label_value(component(face.component).id));

@@ -81,7 +81,7 @@ std::string building_to_graph(const Building& building) {
     Json nodes = Json::array();
     Json edges = Json::array();
     for (std::size_t i = 0; i < building.storeys.size(); ++i) {
-        const Storey& storey = building.storeys[i];
+        const BuildingStorey& storey = building.storeys[i];
         nodes.push_back({{"id", storey_id(i)},
                          {"type", "storey"},
                          {"elevation", rounded(storey.elevation)},

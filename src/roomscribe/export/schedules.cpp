@@ -104,7 +104,7 @@ Schedule walls_schedule(const Building& building) {
             for (const SpacePolygon& piece : pieces_of_face(building, *wall_of[i], face_of[i]))
                 net += area_vector(piece).norm();
             std::string others;
-            for (const WallFace& face : wall.faces) {
+            for (const FaceInPlan& face : wall.faces) {
                 if (face.component == i) continue;
                 if (!others.empty()) others += " ";
                 others += building.scene.components[face.component].id;

@@ -35,11 +35,11 @@ struct Group {
     std::vector<std::size_t> faces;
 };
 
-Eigen::Vector2d direction(const WallFace& face) {
+Eigen::Vector2d direction(const FaceInPlan& face) {
     return (face.end - face.start).normalized();
 }
 
-double length(const WallFace& face) {
+double length(const FaceInPlan& face) {
     return (face.end - face.start).norm();
 }
 
@@ -48,10 +48,10 @@ struct FaceFrame {
     Eigen::Vector2d origin;
     Eigen::Vector2d along;
 
-    explicit FaceFrame(const WallFace& face) : origin(face.start), along(direction(face)) {}
+    explicit FaceFrame(const FaceInPlan& face) : origin(face.start), along(direction(face)) {}
     double station(const Eigen::Vector2d& p) const { return along.dot(p - origin); }
     double offset(const Eigen::Vector2d& p) const { return cross(along, p - origin); }
-    double offset(const WallFace& face) const { return offset(0.5 * (face.start + face.end)); }
+    double offset(const FaceInPlan& face) const { return offset(0.5 * (face.start + face.end)); }
 };
 
 double overlap(double from_a, double to_a, double from_b, double to_b) {
@@ -59,7 +59,7 @@ double overlap(double from_a, double to_a, double from_b, double to_b) {
 }
 
 /// How thick a wall between two faces is; empty if they do not stand back to back.
-std::optional<double> distance_between(const WallFace& a, const WallFace& b) {
+std::optional<double> distance_between(const FaceInPlan& a, const FaceInPlan& b) {
     if (direction(a).dot(direction(b)) > -std::cos(parallel_angle)) return std::nullopt;
     const FaceFrame frame(a);
     const double from = frame.station(b.end);
@@ -76,7 +76,7 @@ std::optional<double> distance_between(const WallFace& a, const WallFace& b) {
 }
 
 /// Whether all faces lie in two planes, each facing its own way.
-bool is_one_wall(const std::vector<WallFace>& faces, const std::vector<std::size_t>& members) {
+bool is_one_wall(const std::vector<FaceInPlan>& faces, const std::vector<std::size_t>& members) {
     const FaceFrame frame(faces[members.front()]);
     constexpr double infinity = std::numeric_limits<double>::infinity();
     double low[2] = {infinity, infinity};
@@ -90,7 +90,7 @@ bool is_one_wall(const std::vector<WallFace>& faces, const std::vector<std::size
     return high[0] - low[0] <= evenness && high[1] - low[1] <= evenness;
 }
 
-std::vector<Group> group_faces(const std::vector<WallFace>& faces) {
+std::vector<Group> group_faces(const std::vector<FaceInPlan>& faces) {
     std::vector<std::tuple<double, std::size_t, std::size_t>> pairs;
     for (std::size_t i = 0; i < faces.size(); ++i) {
         for (std::size_t j = i + 1; j < faces.size(); ++j) {
@@ -127,7 +127,7 @@ struct MeanOffset {
     double weight = 0.0;
 };
 
-Wall wall_of_group(const std::vector<WallFace>& faces, std::vector<std::size_t> members) {
+Wall wall_of_group(const std::vector<FaceInPlan>& faces, std::vector<std::size_t> members) {
     std::stable_sort(members.begin(), members.end(), [&](std::size_t a, std::size_t b) {
         return length(faces[a]) > length(faces[b]) + 1e-6;
     });
@@ -140,7 +140,7 @@ Wall wall_of_group(const std::vector<WallFace>& faces, std::vector<std::size_t> 
     MeanOffset near;
     MeanOffset far;
     for (const std::size_t member : members) {
-        const WallFace& face = faces[member];
+        const FaceInPlan& face = faces[member];
         wall.faces.push_back(face);
         wall.bottom = std::min(wall.bottom, face.bottom);
         wall.top = std::max(wall.top, face.top);
@@ -260,7 +260,7 @@ std::string_view thickness_source_name(ThicknessSource source) {
     return "";
 }
 
-std::vector<Wall> pair_faces(const std::vector<WallFace>& faces) {
+std::vector<Wall> pair_faces(const std::vector<FaceInPlan>& faces) {
     std::vector<Wall> walls;
     for (const Group& group : group_faces(faces))
         walls.push_back(wall_of_group(faces, group.faces));

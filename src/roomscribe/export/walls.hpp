@@ -12,7 +12,7 @@
 namespace roomscribe {
 
 /// One face of a wall as it stands in the plan.
-struct WallFace {
+struct FaceInPlan {
     std::size_t component = 0;  ///< into Scene::components
     /// m, its ends; the room that it faces lies to the left of the way from start to end.
     Eigen::Vector2d start = Eigen::Vector2d::Zero();
@@ -37,8 +37,8 @@ struct WallJoin {
 
 /// A wall as builders know it, from its faces: one, or several that stand back to back.
 struct Wall {
-    std::string id;               ///< of its longest face
-    std::vector<WallFace> faces;  ///< the longest first
+    std::string id;                 ///< of its longest face
+    std::vector<FaceInPlan> faces;  ///< the longest first
     std::size_t storey = 0;
     /// m, the ends of its axis, which runs in its middle; the first face is to the left of it.
     Eigen::Vector2d start = Eigen::Vector2d::Zero();
@@ -60,7 +60,7 @@ struct Wall {
 /// Faces that stand back to back within 0.6 m become one wall; so do further faces in its two
 /// planes. A lone face gets a nominal thickness behind it. Walls come in the order of their longest
 /// faces, with `id` left empty, and without joins.
-std::vector<Wall> pair_faces(const std::vector<WallFace>& faces);
+std::vector<Wall> pair_faces(const std::vector<FaceInPlan>& faces);
 
 /// Makes the ends of walls of one storey that almost meet meet: their axes cross, and the body of
 /// one ends where that of the other begins.

@@ -229,8 +229,8 @@ TEST(Dxf, HasItsLayersInMetres) {
     EXPECT_NEAR(arc_radius, 0.8, 1e-6);
 }
 
-TEST(FloorPlan, DrawsWallsWithGapsAndTheSizesOfRooms) {
-    const std::vector<FloorPlan> plans = draw_floor_plans(flat());
+TEST(StoreyPlan, DrawsWallsWithGapsAndTheSizesOfRooms) {
+    const std::vector<StoreyPlan> plans = draw_floor_plans(flat());
     ASSERT_EQ(plans.size(), 1U);
     double length = 0.0;
     for (const PlanPath& path : plans[0].paths) {
@@ -248,14 +248,14 @@ TEST(FloorPlan, DrawsWallsWithGapsAndTheSizesOfRooms) {
     EXPECT_EQ(words.count("3.00"), 3U);
 }
 
-TEST(FloorPlan, DrawsTwoLeavesInAWideDoorway) {
+TEST(StoreyPlan, DrawsTwoLeavesInAWideDoorway) {
     Scene scene = flat_of_two_rooms();
     scene = transformed_scene(scene, scene.room_from_map);
     for (Component& component : scene.components) {
         if (component.id == "door-1")
             component.polygon = upright_rectangle({4.06, 1.05, 0}, {0, 1.4, 0}, 2.0);
     }
-    const FloorPlan plan = draw_floor_plans(describe_building(scene)).front();
+    const StoreyPlan plan = draw_floor_plans(describe_building(scene)).front();
     ASSERT_EQ(plan.arcs.size(), 2U);
     for (const PlanArc& arc : plan.arcs) {
         EXPECT_NEAR(arc.radius, 0.7, 1e-9);

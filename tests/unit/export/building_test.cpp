@@ -15,7 +15,7 @@ namespace {
 
 const Wall& wall_with(const Building& building, const std::string& face_id) {
     for (const Wall& wall : building.walls) {
-        for (const WallFace& face : wall.faces)
+        for (const FaceInPlan& face : wall.faces)
             if (building.scene.components[face.component].id == face_id) return wall;
     }
     throw std::runtime_error("no wall has the face " + face_id);

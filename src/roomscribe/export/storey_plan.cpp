@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "roomscribe/export/floor_plan.hpp"
+#include "roomscribe/export/storey_plan.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -120,8 +120,8 @@ class PlanDrawer {
     PlanDrawer(const Building& building, std::size_t storey)
         : building_(building), storey_(storey) {}
 
-    FloorPlan draw() {
-        const Storey& storey = building_.storeys[storey_];
+    StoreyPlan draw() {
+        const BuildingStorey& storey = building_.storeys[storey_];
         plan_.title = fmt::format("Storey {}", storey_ + 1);
         plan_.elevation = storey.elevation;
         draw_furniture();
@@ -426,20 +426,20 @@ class PlanDrawer {
 
     const Building& building_;
     std::size_t storey_;
-    FloorPlan plan_;
+    StoreyPlan plan_;
     std::vector<Outline> furniture_;
 };
 
 }  // namespace
 
-std::vector<FloorPlan> draw_floor_plans(const Building& building) {
-    std::vector<FloorPlan> plans;
+std::vector<StoreyPlan> draw_floor_plans(const Building& building) {
+    std::vector<StoreyPlan> plans;
     for (std::size_t i = 0; i < building.storeys.size(); ++i)
         plans.push_back(PlanDrawer(building, i).draw());
     return plans;
 }
 
-std::vector<double> plan_shifts(const std::vector<FloorPlan>& plans) {
+std::vector<double> plan_shifts(const std::vector<StoreyPlan>& plans) {
     constexpr double gap = 2.0;
     std::vector<double> shifts{0.0};
     for (std::size_t i = 1; i < plans.size(); ++i) {

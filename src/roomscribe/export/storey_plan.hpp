@@ -62,7 +62,7 @@ struct PlanText {
 };
 
 /// What is seen of a storey from above, cut at about the height of its windows.
-struct FloorPlan {
+struct StoreyPlan {
     std::string title;  ///< "Storey 1"
     double elevation = 0.0;
     std::vector<PlanPath> paths;
@@ -75,9 +75,9 @@ struct FloorPlan {
 /// windows, furniture and handles from above, rooms with name and area, their clear width and depth
 /// and the overall size. A door swings as its hinge was found; one that is wider than single leaves
 /// are made has two; one of unknown hinge is drawn shut.
-std::vector<FloorPlan> draw_floor_plans(const Building& building);
+std::vector<StoreyPlan> draw_floor_plans(const Building& building);
 
 /// By how far each plan is moved along x, so that they stand beside each other: whole metres.
-std::vector<double> plan_shifts(const std::vector<FloorPlan>& plans);
+std::vector<double> plan_shifts(const std::vector<StoreyPlan>& plans);
 
 }  // namespace roomscribe
