@@ -9,6 +9,7 @@
 #include "roomscribe/core/error.hpp"
 #include "roomscribe/io/byte_reader.hpp"
 #include "roomscribe/io/file_contents.hpp"
+#include "roomscribe/io/las.hpp"
 #include "roomscribe/io/pcd.hpp"
 #include "roomscribe/io/ply.hpp"
 #include "roomscribe/io/uos.hpp"
@@ -33,10 +34,21 @@ FileContents read_contents(const std::filesystem::path& path, const Context& con
     if (extension == ".ply") return read_ply(path, context);
     if (extension == ".3d") return read_uos(path, context);
     if (extension == ".vtk") return read_vtk(path, context);
+    if (extension == ".las" || extension == ".laz") return read_las(path, context);
     // A missing file or a folder is the better message.
     const MappedFile file(path, "");
     throw IoError(file.path(), "", {}, fmt::format("the extension '{}' is unknown", extension),
-                  "give a .pcd, .ply, .3d or .vtk file");
+                  "give a .pcd, .ply, .las, .3d or .vtk file");
+}
+
+/// Of formats that have one only.
+void require_encoding(Encoding encoding, Encoding only, std::string_view allowed) {
+    if (encoding == Encoding::automatic || encoding == only) return;
+    const std::string_view name = encoding == Encoding::ascii               ? "ascii"
+                                  : encoding == Encoding::binary            ? "binary"
+                                  : encoding == Encoding::binary_compressed ? "binary_compressed"
+                                                                            : "binary_big_endian";
+    throw InvalidArgument("encoding", name, allowed);
 }
 
 void add_warnings(FileSummary& summary, const PointCloud& cloud,
@@ -70,13 +82,15 @@ void write_point_cloud(const std::filesystem::path& path, const PointCloud& clou
     const std::string extension = lower_extension(path);
     if (extension == ".pcd") return write_pcd(path, cloud, options.encoding, context);
     if (extension == ".ply") return write_ply(path, cloud, options.encoding, context);
-    if (extension != ".3d") {
-        throw InvalidArgument("path", path.string(), "a .pcd, .ply or .3d file");
+    if (extension == ".las") {
+        require_encoding(options.encoding, Encoding::binary, "binary for .las");
+        return write_las(path, cloud, context);
     }
-    if (options.encoding != Encoding::automatic && options.encoding != Encoding::ascii) {
-        throw InvalidArgument("encoding", "binary", "ascii for .3d");
+    if (extension == ".3d") {
+        require_encoding(options.encoding, Encoding::ascii, "ascii for .3d");
+        return write_uos(path, cloud, context);
     }
-    write_uos(path, cloud, context);
+    throw InvalidArgument("path", path.string(), "a .pcd, .ply, .las or .3d file");
 }
 
 FileSummary summarize_file(const std::filesystem::path& path, const Context& context) {

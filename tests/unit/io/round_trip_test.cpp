@@ -218,7 +218,7 @@ TEST(WritePointCloud, RefusesWhatItCannotWrite) {
     const test::TemporaryFolder folder;
     PointCloud cloud;
     cloud.positions.resize(4, Eigen::Vector3f::Zero());
-    EXPECT_THROW(write_point_cloud(folder / "a.las", cloud), InvalidArgument);
+    EXPECT_THROW(write_point_cloud(folder / "a.laz", cloud), InvalidArgument);
     EXPECT_THROW(write_point_cloud(folder / "a.vtk", cloud), InvalidArgument);
     EXPECT_THROW(write_point_cloud(folder / "a.3d", cloud, {Encoding::binary}), InvalidArgument);
     EXPECT_THROW(write_point_cloud(folder / "a.pcd", cloud, {Encoding::binary_big_endian}),
