@@ -12,7 +12,8 @@ namespace roomscribe {
 /// Coordinates are integers in steps of a scale from an offset; both are applied in double. Colours
 /// of 16 bits become 8: all are divided by 256 if one is above 255 (some writers put 8 bits there).
 /// Classification (without its flags in formats 0 to 5), angle, user data, source, time, near
-/// infrared and extra bytes are channels; return counts and waveforms are dropped.
+/// infrared and extra bytes are channels, but for those that are zero everywhere (the class
+/// always is one); return counts and waveforms are dropped.
 /// LAZ, which is compressed, is refused with a word on how to open it.
 FileContents read_las(const std::filesystem::path& path, const Context& context);
 

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
-#include <array>
-#include <atomic>
-#include <cmath>
+#include <functional>
 
 #include <fmt/format.h>
 
@@ -162,47 +160,80 @@ std::vector<Field> record_fields(const ByteReader& reader, const Header& header)
     return fields;
 }
 
+bool is_wide_color(const Field& field) {
+    return field.type == ScalarType::uint16 &&
+           (field.name == "red" || field.name == "green" || field.name == "blue");
+}
+
+/// Fields of which every point has zeros tell nothing and cost memory: of the unused ones of the
+/// many fields that LAS always has, no channel is made.
+using RecordBits = std::vector<std::byte>;
+
+/// The bits that are set in any of the records.
+RecordBits find_used_bits(const std::byte* records, std::size_t record_bytes, std::size_t count,
+                          const Context& context) {
+    const auto gather = [&](std::size_t begin, std::size_t end) {
+        RecordBits bits(record_bytes);
+        constexpr std::size_t word = sizeof(std::uint64_t);
+        // The last word may overlap the one before. No record has less than 20 bytes.
+        for (std::size_t at = 0; at < record_bytes; at += word) {
+            const std::size_t place = std::min(at, record_bytes - word);
+            std::uint64_t all = 0;
+            for (std::size_t i = begin; i < end; ++i) {
+                std::uint64_t some = 0;
+                std::memcpy(&some, records + i * record_bytes + place, word);
+                all |= some;
+            }
+            std::memcpy(bits.data() + place, &all, word);
+        }
+        return bits;
+    };
+    const auto join = [](RecordBits a, RecordBits b) {
+        std::transform(a.begin(), a.end(), b.begin(), a.begin(), std::bit_or<>());
+        return a;
+    };
+    return parallel_reduce(context, count, points_per_chunk, RecordBits(record_bytes), gather,
+                           join);
+}
+
+/// The fields as the decoder is to take them: the class always, of the others what is used.
+/// Colours have 16 bits, which it does not take.
+std::vector<Field> fields_to_decode(std::span<const Field> fields, const RecordBits& used) {
+    std::vector<Field> decoded(fields.begin(), fields.end());
+    auto first = used.begin();
+    for (Field& field : decoded) {
+        const auto last = first + static_cast<std::ptrdiff_t>(field.bytes());
+        const bool unused = std::all_of(first, last, [](std::byte b) { return b == std::byte{0}; });
+        const bool position = field.name == "x" || field.name == "y" || field.name == "z";
+        if (is_wide_color(field) || (unused && !position && field.name != "classification")) {
+            field = {"_", ScalarType::uint8, field.bytes()};
+        }
+        first = last;
+    }
+    return decoded;
+}
+
 /// Where the colours stand in a record; empty if there are none.
 std::optional<std::size_t> color_offset(std::span<const Field> fields) {
     std::size_t offset = 0;
     for (const Field& field : fields) {
-        if (field.name == "red" && field.type == ScalarType::uint16) return offset;
+        if (is_wide_color(field)) return offset;
         offset += field.bytes();
     }
     return std::nullopt;
 }
 
-using WideColor = std::array<std::uint16_t, 3>;
-
-WideColor load_color(const std::byte* bytes) {
-    WideColor color;
-    std::memcpy(color.data(), bytes, sizeof(color));
-    if constexpr (std::endian::native == std::endian::big) {
-        for (std::uint16_t& value : color)
-            value = swap_bytes(value);
-    }
-    return color;
-}
-
+/// `used` are the bits of the colours: one above 255 says that all have 16 bits.
 void decode_colors(PointCloud& cloud, const std::byte* first, std::size_t stride,
-                   const Context& context) {
-    std::atomic<bool> wide = false;
-    parallel_for(context, cloud.size(), points_per_chunk, [&](std::size_t begin, std::size_t end) {
-        std::uint16_t bits = 0;
-        for (std::size_t i = begin; i < end && !wide; ++i) {
-            const WideColor color = load_color(first + i * stride);
-            bits = static_cast<std::uint16_t>(bits | color[0] | color[1] | color[2]);
-            if (bits > 255) wide = true;
-        }
-    });
-    const unsigned shift = wide ? 8 : 0;
+                   std::span<const std::byte> used, const Context& context) {
+    const bool wide = used[1] != std::byte{0} || used[3] != std::byte{0} || used[5] != std::byte{0};
+    const std::byte* const taken = first + (wide ? 1 : 0);
     cloud.colors.resize(cloud.size());
     parallel_for(context, cloud.size(), points_per_chunk, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
-            const WideColor color = load_color(first + i * stride);
-            for (std::size_t k = 0; k < 3; ++k) {
-                cloud.colors[i][k] = static_cast<std::uint8_t>(color[k] >> shift);
-            }
+            const std::byte* const color = taken + i * stride;
+            for (std::size_t k = 0; k < 3; ++k)
+                cloud.colors[i][k] = std::to_integer<std::uint8_t>(color[2 * k]);
         }
     });
 }
@@ -232,12 +263,8 @@ FileContents read_las(const std::filesystem::path& path, const Context& context)
     const auto num_points = static_cast<std::size_t>(header.num_points);
     const std::byte* const records = reader.take(num_points * header.record_bytes).data();
 
-    // The decoder takes colours of 8 bits only.
-    std::vector<Field> decoded = fields;
-    for (Field& field : decoded) {
-        if (field.name == "red" || field.name == "green" || field.name == "blue") field.name = "_";
-    }
-    PointDecoder decoder(decoded, num_points);
+    const RecordBits used = find_used_bits(records, header.record_bytes, num_points, context);
+    PointDecoder decoder(fields_to_decode(fields, used), num_points);
     decoder.quantize_positions(header.scale, header.offset);
     decoder.decode(record_sources(fields, records), 0, num_points, std::endian::little, context);
     FileContents contents{decoder.finish(std::nullopt, std::nullopt),
@@ -249,7 +276,8 @@ FileContents read_las(const std::filesystem::path& path, const Context& context)
         if (field.name != "_") contents.fields.push_back(field);
     }
     if (const auto offset = color_offset(fields)) {
-        decode_colors(contents.cloud, records + *offset, header.record_bytes, context);
+        decode_colors(contents.cloud, records + *offset, header.record_bytes,
+                      std::span(used).subspan(*offset), context);
     }
     if (header.point_format < 6) mask_legacy_classes(contents.cloud);
     return contents;
