@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "cli/interpret_command.hpp"
 
+#include <algorithm>
 #include <memory>
 #include <utility>
 
@@ -9,17 +10,32 @@
 namespace roomscribe::cli {
 namespace {
 
-ExitCode interpret(const JobOptions& options, const std::atomic<bool>& cancel) {
-    if (options.pose_files.empty() && options.inputs.size() > 1) {
-        throw UsageError(
-            "interpret takes one cloud, or several with --poses FILE; `roomscribe run` finds the "
-            "poses itself");
+bool has_all(KnownPoses poses) {
+    return std::all_of(poses.begin(), poses.end(),
+                       [](const auto& pose) { return pose.has_value(); });
+}
+
+/// The scans by the poses of --poses, else by those of their files.
+ScanMap make_map(JobInput& input) {
+    if (!input.given_poses.empty()) return merge_scans(input.scans, input.given_poses);
+    if (has_all(input.stored_poses)) {
+        ScanMap map = merge_scans(input.scans, input.stored_poses);
+        map.cloud.global_shift = input.map_shift;
+        return map;
     }
-    const Work work = [](std::vector<Scan>& scans, KnownPoses poses,
-                         const PipelineSettings& settings, const Context& context) {
+    if (input.scans.size() > 1) {
+        throw UsageError(
+            "interpret takes one cloud, or several whose files hold their poses (E57, PTX) or with "
+            "--poses FILE; `roomscribe run` finds the poses itself");
+    }
+    return map_of_cloud(std::move(input.scans.front()));
+}
+
+ExitCode interpret(const JobOptions& options, const std::atomic<bool>& cancel) {
+    const Work work = [](JobInput& input, const PipelineSettings& settings,
+                         const Context& context) {
         Reconstruction reconstruction;
-        reconstruction.map =
-            poses.empty() ? map_of_cloud(std::move(scans.front())) : merge_scans(scans, poses);
+        reconstruction.map = make_map(input);
         interpret_map(reconstruction, settings, context);
         return reconstruction;
     };

@@ -252,7 +252,8 @@ std::string result_tables(const Reconstruction& reconstruction, const JobSummary
     }
     if (reconstruction.registration && reconstruction.registration->components.size() > 1) {
         text += fmt::format(
-            "\nthe scans fall into {} sets that no link joins: set 1 is the map, each of the others "
+            "\nthe scans fall into {} sets that no link joins: set 1 is the map, each of the "
+            "others "
             "has a folder of its own, {} and so on\n",
             reconstruction.registration->components.size(), folder_of_apart(0));
     }

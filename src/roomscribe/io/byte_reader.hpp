@@ -72,6 +72,10 @@ class ByteReader {
     /// read with this: a line of more than 64 KiB is refused.
     std::string_view read_line();
 
+    /// The whole file as text.
+    std::string_view whole_text() const {
+        return {reinterpret_cast<const char*>(bytes_.data()), bytes_.size()};
+    }
     /// All that is left, as text; leaves the position alone.
     std::string_view remaining_text() const;
     /// Goes on behind `size` bytes of what is left. Precondition: size <= remaining().

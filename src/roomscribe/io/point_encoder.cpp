@@ -193,14 +193,15 @@ void write_records(AtomicFile& file, const PointColumns& points, std::endian ord
     }
 }
 
-void write_text(AtomicFile& file, const PointColumns& points, const Context& context) {
+void write_text(AtomicFile& file, const PointColumns& points, const Context& context,
+                char separator) {
     std::string text;
     for (std::size_t i = 0; i < points.num_points(); ++i) {
         for (const FieldColumn& column : points.columns()) {
             const std::byte* value = column.first + i * column.stride;
             for (std::size_t k = 0; k < column.field.count; ++k) {
                 append_number(text, column.field.type, value + k * size_of(column.field.type));
-                text += ' ';
+                text += separator;
             }
         }
         text.back() = '\n';

@@ -59,6 +59,7 @@ void write_records(AtomicFile& file, const PointColumns& columns, std::endian or
                    const Context& context);
 
 /// Writes the points as lines of text.
-void write_text(AtomicFile& file, const PointColumns& columns, const Context& context);
+void write_text(AtomicFile& file, const PointColumns& columns, const Context& context,
+                char separator = ' ');
 
 }  // namespace roomscribe

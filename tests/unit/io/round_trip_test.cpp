@@ -202,7 +202,7 @@ TEST_P(FarCoordinates, AreKeptSmallAndRestored) {
         EXPECT_LT((read.sensor_pose->translation() - cloud.sensor_pose->translation()).norm(),
                   path.extension() == ".ply" ? 0.6 : 1e-8);
     }
-    const FileSummary summary = summarize_file(path);
+    const FileSummary summary = summarize_file(path).front();
     EXPECT_GT(summary.bounds.min().x(), 4365000.0);
     EXPECT_EQ(summary.warnings.size(), 1U);
 }
