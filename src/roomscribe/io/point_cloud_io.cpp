@@ -10,6 +10,7 @@
 
 #include "roomscribe/core/error.hpp"
 #include "roomscribe/io/byte_reader.hpp"
+#include "roomscribe/io/e57.hpp"
 #include "roomscribe/io/file_contents.hpp"
 #include "roomscribe/io/las.hpp"
 #include "roomscribe/io/pcd.hpp"
@@ -48,7 +49,8 @@ std::vector<FileContents> read_contents(const std::filesystem::path& path, const
         {".vtk", read_vtk},         {".las", read_las},         {".laz", read_las},
         {".pts", read_text_points}, {".xyz", read_text_points}, {".txt", read_text_points},
         {".asc", read_text_points}, {".csv", read_text_points}};
-    constexpr std::pair<std::string_view, ReadAll> several[] = {{".ptx", read_ptx}};
+    constexpr std::pair<std::string_view, ReadAll> several[] = {{".e57", read_e57},
+                                                                {".ptx", read_ptx}};
     const std::string extension = lower_extension(path);
     for (const auto& [known, read] : several) {
         if (extension == known) return read(path, context);
@@ -61,8 +63,9 @@ std::vector<FileContents> read_contents(const std::filesystem::path& path, const
     }
     // A missing file or a folder is the better message.
     const MappedFile file(path, "");
-    throw IoError(file.path(), "", {}, fmt::format("the extension '{}' is unknown", extension),
-                  "give a .pcd, .ply, .las, .ptx, .pts, .xyz, .txt, .asc, .csv, .3d or .vtk file");
+    throw IoError(
+        file.path(), "", {}, fmt::format("the extension '{}' is unknown", extension),
+        "give a .pcd, .ply, .e57, .las, .ptx, .pts, .xyz, .txt, .asc, .csv, .3d or .vtk file");
 }
 
 /// The part of far coordinates that a map is kept without, in steps as for clouds.
@@ -196,12 +199,17 @@ void write_point_cloud(const std::filesystem::path& path, const PointCloud& clou
         require_encoding(options.encoding, Encoding::ascii, "ascii for .3d");
         return write_uos(path, cloud, context);
     }
+    if (extension == ".e57") {
+        require_encoding(options.encoding, Encoding::binary, "binary for .e57");
+        const StoredScan stored{{path.stem().string(), cloud}, std::nullopt};
+        return write_e57(path, {&stored, 1}, context);
+    }
     if (is_text_extension(extension)) {
         require_encoding(options.encoding, Encoding::ascii, "ascii for text");
         return write_text_points(path, cloud, context);
     }
     throw InvalidArgument("path", path.string(),
-                          "a .pcd, .ply, .las, .xyz, .txt, .asc, .csv or .3d file");
+                          "a .pcd, .ply, .e57, .las, .xyz, .txt, .asc, .csv or .3d file");
 }
 
 std::vector<FileSummary> summarize_file(const std::filesystem::path& path, const Context& context) {

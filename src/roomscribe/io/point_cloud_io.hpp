@@ -22,10 +22,11 @@ namespace roomscribe {
 //   .pcd        ascii, binary, binary_compressed  the same                  all (1)
 //   .ply        ascii, binary little/big endian   the same                  all (2)
 //   .3d         3DTK's UOS text                   the same                  intensity (3)
-//   .las        1.0 to 1.4, point formats 0-10    1.4, formats 6 and 7      all (4)
-//   .ptx        all scans of the file             no                        intensity, colours,
-//   grid .pts .xyz .txt .asc .csv   ascii, guessed     .xyz .txt .asc .csv       all but grid and
-//   pose (5) .vtk        legacy points, ascii and binary   no                        nothing
+//   .e57        all scans, every coding of numbers  one scan                all but the sensor pose
+//   (6) .las        1.0 to 1.4, point formats 0-10    1.4, formats 6 and 7      all (4) .ptx all
+//   scans of the file             no                        intensity, colours, grid .pts .xyz .txt
+//   .asc .csv   ascii, guessed     .xyz .txt .asc .csv       all but grid and pose (5) .vtk legacy
+//   points, ascii and binary   no                        nothing
 //
 // "All" are normals, colours, intensities, the scan grid, the sensor pose, and any other property
 // as a channel under its own name and type. Conversions between PCD and PLY keep all of them.
@@ -37,6 +38,7 @@ namespace roomscribe {
 // (3) Centimetres, left-handed, y up in the file; see uos.hpp.
 // (4) No grid, no pose, and no points without coordinates; see las.hpp.
 // (5) See text_points.hpp.
+// (6) See e57.hpp.
 //
 // `x y z` may be of any type. `nx ny nz` or `normal_x normal_y normal_z` of a floating type are the
 // normals; `red green blue` of uchar, or a packed 4-byte `rgb` or `rgba`, the colours (alpha is
@@ -63,7 +65,7 @@ struct WriteOptions {
 /// What is in a file, for people.
 struct FileSummary {
     std::string name;      ///< what the file calls the scan; mostly empty
-    std::string format;    ///< "PCD", "PLY", "LAS", "PTX", "PTS", "text", "UOS", "VTK"
+    std::string format;    ///< "PCD", "PLY", "E57", "LAS", "PTX", "PTS", "text", "UOS", "VTK"
     std::string encoding;  ///< as the format calls it: "binary_compressed"
     std::size_t num_points = 0;
     std::vector<Field> fields;  ///< of a point, in file order, those that are not read too
