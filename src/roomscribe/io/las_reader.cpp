@@ -17,7 +17,8 @@ namespace {
 constexpr std::string_view cure = "the file is damaged: copy or export it again";
 constexpr std::string_view laz_cure =
     "open it with 'laszip -i FILE.laz -o FILE.las' or 'pdal translate FILE.laz FILE.las'";
-constexpr std::size_t points_per_chunk = 1U << 16U;
+/// Records of so many points stay in the cache while one field after another is taken from them.
+constexpr std::size_t points_per_chunk = 1U << 12U;
 /// LASzip sets it in the number of the point format.
 constexpr unsigned compressed_bit = 0x80;
 /// Formats 0 to 5 have three flags above the class.

@@ -145,6 +145,11 @@ FileSummary summarize(FileContents contents) {
 
 }  // namespace
 
+bool may_hold_poses(const std::filesystem::path& path) {
+    const std::string extension = lower_extension(path);
+    return extension == ".e57" || extension == ".ptx";
+}
+
 std::vector<StoredScan> read_scans(const std::filesystem::path& path, const Context& context) {
     std::vector<FileContents> all = read_contents(path, context);
     const std::string file = path.filename().string();

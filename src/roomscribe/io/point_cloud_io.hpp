@@ -88,6 +88,9 @@ struct StoredScan {
     Eigen::Vector3d map_shift = Eigen::Vector3d::Zero();
 };
 
+/// Whether files with this extension may say where their scans stand.
+bool may_hold_poses(const std::filesystem::path& path);
+
 /// Reads all scans of a file, at least one, in its order. Their names are the file's name without
 /// folders; where there are several, with '#' and the scan's own name or, if it has none or others
 /// have the same, its number, from 1. Throws as read_scan does.

@@ -31,7 +31,8 @@ struct SourceRun {
 
 namespace {
 
-constexpr std::size_t points_per_chunk = 1U << 16U;
+/// Records of so many points stay in the cache while one field after another is taken from them.
+constexpr std::size_t points_per_chunk = 1U << 12U;
 /// float32 holds 0.06 mm up to here.
 constexpr double largest_near_coordinate = 1000.0;
 constexpr double shift_step = 100.0;
