@@ -15,6 +15,7 @@
 #include "roomscribe/io/e57_records.hpp"
 #include "roomscribe/io/number_text.hpp"
 #include "roomscribe/io/point_decoder.hpp"
+#include "roomscribe/io/row_fields.hpp"
 #include "roomscribe/io/scalar_dispatch.hpp"
 
 namespace roomscribe {
@@ -362,11 +363,6 @@ void store_as(double& slot, ScalarType type) {
     });
 }
 
-std::uint8_t color_byte(double value) {
-    if (!(value > 0.0)) return 0;
-    return static_cast<std::uint8_t>(std::min(std::round(value), 255.0));
-}
-
 std::size_t index_of(std::span<const Column> columns, std::string_view name) {
     std::size_t i = 0;
     while (columns[i].field.name != name)
@@ -431,6 +427,7 @@ PointCloud decode_points(const Source& source, const pugi::xml_node& scan, Recor
         grid.look(values, count);
         convert_values(records.columns, values, count, records.spherical);
         std::vector<FieldSource> sources;
+        sources.reserve(values.size());
         for (const std::vector<double>& column : values) {
             sources.push_back({reinterpret_cast<const std::byte*>(column.data()), sizeof(double)});
         }

@@ -13,6 +13,7 @@
 #include "roomscribe/io/e57.hpp"
 #include "roomscribe/io/file_contents.hpp"
 #include "roomscribe/io/las.hpp"
+#include "roomscribe/io/npy.hpp"
 #include "roomscribe/io/pcd.hpp"
 #include "roomscribe/io/ply.hpp"
 #include "roomscribe/io/ptx.hpp"
@@ -48,7 +49,7 @@ std::vector<FileContents> read_contents(const std::filesystem::path& path, const
         {".pcd", read_pcd},         {".ply", read_ply},         {".3d", read_uos},
         {".vtk", read_vtk},         {".las", read_las},         {".laz", read_las},
         {".pts", read_text_points}, {".xyz", read_text_points}, {".txt", read_text_points},
-        {".asc", read_text_points}, {".csv", read_text_points}};
+        {".asc", read_text_points}, {".csv", read_text_points}, {".npy", read_npy_points}};
     constexpr std::pair<std::string_view, ReadAll> several[] = {{".e57", read_e57},
                                                                 {".ptx", read_ptx}};
     const std::string extension = lower_extension(path);
@@ -63,9 +64,9 @@ std::vector<FileContents> read_contents(const std::filesystem::path& path, const
     }
     // A missing file or a folder is the better message.
     const MappedFile file(path, "");
-    throw IoError(
-        file.path(), "", {}, fmt::format("the extension '{}' is unknown", extension),
-        "give a .pcd, .ply, .e57, .las, .ptx, .pts, .xyz, .txt, .asc, .csv, .3d or .vtk file");
+    throw IoError(file.path(), "", {}, fmt::format("the extension '{}' is unknown", extension),
+                  "give a .pcd, .ply, .e57, .las, .ptx, .pts, .xyz, .txt, .asc, .csv, .npy, .3d or "
+                  ".vtk file");
 }
 
 /// The part of far coordinates that a map is kept without, in steps as for clouds.

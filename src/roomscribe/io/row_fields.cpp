@@ -13,13 +13,13 @@ bool is_color(const std::string& name) {
     return name == "red" || name == "green" || name == "blue";
 }
 
-std::uint8_t to_byte(double value) {
+}  // namespace
+
+std::uint8_t color_byte(double value) {
     // The comparison is false for NaN, too.
     if (!(value > 0.0)) return 0;
     return static_cast<std::uint8_t>(std::min(std::round(value), 255.0));
 }
-
-}  // namespace
 
 std::vector<Field> row_fields(std::span<const std::string> names) {
     const bool colored = std::count_if(names.begin(), names.end(), is_color) == 3;
@@ -46,7 +46,7 @@ PointCloud decode_rows(const ByteReader& reader, std::span<const RowBlock> block
     // A colour stands in the first byte of its column.
     const auto convert = [&](double* row) {
         for (const std::size_t column : colors) {
-            const std::uint8_t byte = to_byte(row[column] * color_factor);
+            const std::uint8_t byte = color_byte(row[column] * color_factor);
             std::memcpy(row + column, &byte, sizeof(byte));
         }
         if (zero_is_missing && row[0] == 0.0 && row[1] == 0.0 && row[2] == 0.0) {

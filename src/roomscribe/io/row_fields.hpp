@@ -13,6 +13,9 @@ namespace roomscribe {
 /// The fields of columns with these names: float64, but for the colours, which become uint8.
 std::vector<Field> row_fields(std::span<const std::string> names);
 
+/// Rounded, and kept within 0 to 255; 0 for NaN.
+std::uint8_t color_byte(double value);
+
 /// Reads rows into a cloud. Colours are multiplied with `color_factor`, rounded and kept within 0
 /// to 255. `zero_is_missing`: a point 0 0 0 is a ray without return, and becomes NaN.
 PointCloud decode_rows(const ByteReader& reader, std::span<const RowBlock> blocks,
