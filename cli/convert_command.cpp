@@ -33,10 +33,12 @@ ExitCode convert(const ConvertOptions& options, const std::atomic<bool>& cancel)
 void add_convert_command(CLI::App& program, Action& action) {
     const auto options = std::make_shared<ConvertOptions>();
     CLI::App& verb = *program.add_subcommand("convert", "Write a cloud in another format");
-    verb.add_option("IN", options->input, "PCD, PLY, UOS .3d or legacy VTK")
+    verb.add_option("IN", options->input,
+                    "Any file that is read; several scans become one map by their poses")
         ->type_name("")
         ->required();
-    verb.add_option("OUT", options->output, "PCD, PLY or UOS .3d, as the name ends")
+    verb.add_option("OUT", options->output,
+                    "PCD, PLY, E57, LAS, XYZ, TXT, CSV or UOS .3d, as the name ends")
         ->type_name("")
         ->required();
     add_choice_option<Encoding>(

@@ -34,8 +34,9 @@ ExitCode demo(JobOptions options, const std::atomic<bool>& cancel) {
     }
     options.truth = office.path().string();
     return run_job("run", options, cancel,
-                   [](std::vector<Scan>& scans, KnownPoses, const PipelineSettings& settings,
-                      const Context& context) { return reconstruct(scans, settings, context); });
+                   [](JobInput& input, const PipelineSettings& settings, const Context& context) {
+                       return reconstruct(input.scans, settings, context);
+                   });
 }
 
 }  // namespace

@@ -47,9 +47,9 @@ ExitCode explain(const JobOptions& options, const std::atomic<bool>& cancel) {
     {
         ProgressDisplay display(options.progress);
         const Context context = make_context(options, cancel, display);
-        std::vector<Scan> scans = load_scans(options.inputs, context);
-        const ScanUnit unit = convert_to_metres(scans, options.inputs, options.unit, context);
-        values = reconstruct(scans, settings, context).derived_values;
+        JobInput input = load_scans(options.inputs, context);
+        const ScanUnit unit = convert_to_metres(input.scans, input.paths, options.unit, context);
+        values = reconstruct(input.scans, settings, context).derived_values;
         if (const auto value = unit_as_derived_value(unit)) values.insert(values.begin(), *value);
     }
     fmt::print("{}", options.as_json ? derived_json(values) : derived_table(values));

@@ -2,6 +2,7 @@
 #include "cli/info_command.hpp"
 
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,7 @@
 
 #include "cli/text_table.hpp"
 #include "roomscribe/core/context.hpp"
+#include "roomscribe/core/units.hpp"
 #include "roomscribe/io/point_cloud_io.hpp"
 
 namespace roomscribe::cli {
@@ -29,7 +31,15 @@ std::string describe(const Eigen::Vector3d& v) {
     return fmt::format("{:.3f} {:.3f} {:.3f}", v.x(), v.y(), v.z());
 }
 
-std::string summary_text(const std::string& path, const FileSummary& summary) {
+/// "file.e57", or "file.e57, scan 2 of 3: hall".
+std::string title(const std::string& path, std::span<const FileSummary> all, std::size_t i) {
+    if (all.size() == 1 && all[i].name.empty()) return path;
+    const std::string place =
+        all.size() == 1 ? path : fmt::format("{}, scan {} of {}", path, i + 1, all.size());
+    return all[i].name.empty() ? place : fmt::format("{}: {}", place, all[i].name);
+}
+
+std::string summary_text(const std::string& title, const FileSummary& summary) {
     std::vector<std::string> fields;
     for (const Field& field : summary.fields)
         fields.push_back(describe(field));
@@ -49,16 +59,23 @@ std::string summary_text(const std::string& path, const FileSummary& summary) {
     if (summary.sensor_pose) {
         table.add_row({"  scanner at", describe(summary.sensor_pose->translation())});
     }
+    if (summary.map_from_scan) {
+        const Eigen::AngleAxisd turn(summary.map_from_scan->linear());
+        table.add_row({"  stands at", describe(summary.map_from_scan->translation())});
+        table.add_row({"  turned by", fmt::format("{:.3f} degrees about {}", degrees(turn.angle()),
+                                                  describe(turn.axis()))});
+    }
     table.add_row({"  fields", fmt::format("{}", fmt::join(fields, ", "))});
     for (const std::string& warning : summary.warnings)
         table.add_row({"  note", warning});
-    return path + "\n" + table.to_text();
+    return title + "\n" + table.to_text();
 }
 
 nlohmann::ordered_json summary_json(const std::string& path, const FileSummary& summary) {
     using Json = nlohmann::ordered_json;
     const auto list = [](const auto& v) { return Json{v.x(), v.y(), v.z()}; };
     Json json{{"path", path},
+              {"scan", summary.name},
               {"format", summary.format},
               {"encoding", summary.encoding},
               {"points", summary.num_points},
@@ -78,6 +95,13 @@ nlohmann::ordered_json summary_json(const std::string& path, const FileSummary& 
     if (summary.sensor_pose) {
         json["sensor_position"] = list(summary.sensor_pose->translation());
     }
+    if (summary.map_from_scan) {
+        json["pose"] = Json::array();
+        for (Eigen::Index row = 0; row < 3; ++row) {
+            const Eigen::Vector4d numbers = summary.map_from_scan->matrix().row(row);
+            json["pose"].push_back({numbers[0], numbers[1], numbers[2], numbers[3]});
+        }
+    }
     return json;
 }
 
@@ -87,11 +111,13 @@ ExitCode print_info(const InfoOptions& options, const std::atomic<bool>& cancel)
     context.cancel = &cancel;
     Json all = Json::array();
     for (const std::string& path : options.files) {
-        const FileSummary summary = summarize_file(path, context);
-        if (options.as_json) {
-            all.push_back(summary_json(path, summary));
-        } else {
-            fmt::print("{}", summary_text(path, summary));
+        const std::vector<FileSummary> scans = summarize_file(path, context);
+        for (std::size_t i = 0; i < scans.size(); ++i) {
+            if (options.as_json) {
+                all.push_back(summary_json(path, scans[i]));
+            } else {
+                fmt::print("{}", summary_text(title(path, scans, i), scans[i]));
+            }
         }
     }
     if (options.as_json) {

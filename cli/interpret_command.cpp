@@ -1,25 +1,50 @@
 // SPDX-License-Identifier: MIT
 #include "cli/interpret_command.hpp"
 
+#include <algorithm>
 #include <memory>
 #include <utility>
 
 #include "cli/job.hpp"
+#include "roomscribe/io/point_cloud_io.hpp"
 
 namespace roomscribe::cli {
 namespace {
 
-ExitCode interpret(const JobOptions& options, const std::atomic<bool>& cancel) {
-    if (options.pose_files.empty() && options.inputs.size() > 1) {
-        throw UsageError(
-            "interpret takes one cloud, or several with --poses FILE; `roomscribe run` finds the "
-            "poses itself");
+bool has_all(KnownPoses poses) {
+    return std::all_of(poses.begin(), poses.end(),
+                       [](const auto& pose) { return pose.has_value(); });
+}
+
+[[noreturn]] void fail_without_poses() {
+    throw UsageError(
+        "interpret takes one cloud, or several whose files hold their poses (E57, PTX) or with "
+        "--poses FILE; `roomscribe run` finds the poses itself");
+}
+
+/// The scans by the poses of --poses, else by those of their files.
+ScanMap make_map(JobInput& input) {
+    if (!input.given_poses.empty()) return merge_scans(input.scans, input.given_poses);
+    if (has_all(input.stored_poses)) {
+        ScanMap map = merge_scans(input.scans, input.stored_poses);
+        map.cloud.global_shift = input.map_shift;
+        return map;
     }
-    const Work work = [](std::vector<Scan>& scans, KnownPoses poses,
-                         const PipelineSettings& settings, const Context& context) {
+    if (input.scans.size() > 1) fail_without_poses();
+    return map_of_cloud(std::move(input.scans.front()));
+}
+
+ExitCode interpret(const JobOptions& options, const std::atomic<bool>& cancel) {
+    // Told before long reading, where the names tell it.
+    const auto may_hold_pose = [](const std::string& path) { return may_hold_poses(path); };
+    if (options.pose_files.empty() && options.inputs.size() > 1 &&
+        !std::all_of(options.inputs.begin(), options.inputs.end(), may_hold_pose)) {
+        fail_without_poses();
+    }
+    const Work work = [](JobInput& input, const PipelineSettings& settings,
+                         const Context& context) {
         Reconstruction reconstruction;
-        reconstruction.map =
-            poses.empty() ? map_of_cloud(std::move(scans.front())) : merge_scans(scans, poses);
+        reconstruction.map = make_map(input);
         interpret_map(reconstruction, settings, context);
         return reconstruction;
     };

@@ -133,31 +133,40 @@ Context make_context(const JobOptions& options, const std::atomic<bool>& cancel,
     return context;
 }
 
-std::vector<Scan> load_scans(std::span<const std::string> paths, const Context& context) {
-    std::vector<Scan> scans;
+JobInput load_scans(std::span<const std::string> paths, const Context& context) {
+    JobInput input;
     for (const std::string& path : paths) {
         context.throw_if_cancelled();
-        scans.push_back(read_scan(path, context));
-        require_usable(path, scans.back().cloud);
+        for (StoredScan& stored : read_scans(path, context)) {
+            const bool several = stored.scan.name != std::filesystem::path(path).filename();
+            require_usable(several ? path + " (" + stored.scan.name + ")" : path,
+                           stored.scan.cloud);
+            // One shift serves all files.
+            if (input.scans.empty()) input.map_shift = stored.map_shift;
+            if (stored.map_from_scan) {
+                stored.map_from_scan->translation() += stored.map_shift - input.map_shift;
+            }
+            input.scans.push_back(std::move(stored.scan));
+            input.stored_poses.push_back(stored.map_from_scan);
+            input.paths.push_back(path);
+        }
     }
-    return scans;
+    return input;
 }
 
-std::vector<std::optional<Transform>> load_poses(const JobOptions& options,
-                                                 const Context& context) {
-    std::vector<std::optional<Transform>> poses;
-    if (options.pose_files.empty()) return poses;
+void load_poses(JobInput& input, const JobOptions& options, const Context& context) {
+    if (options.pose_files.empty()) return;
+    auto& poses = input.given_poses;
     for (const std::string& path : options.pose_files) {
         const auto more = read_poses(path, context);
         poses.insert(poses.end(), more.begin(), more.end());
     }
-    if (poses.size() != options.inputs.size()) {
+    if (poses.size() != input.scans.size()) {
         throw IoError(
             options.pose_files.back(), "poses", {},
-            fmt::format("there are {} poses for {} scans", poses.size(), options.inputs.size()),
+            fmt::format("there are {} poses for {} scans", poses.size(), input.scans.size()),
             "give one pose per scan, in the order of the scans");
     }
-    return poses;
 }
 
 ExitCode run_job(std::string_view verb, const JobOptions& options, const std::atomic<bool>& cancel,
@@ -173,11 +182,13 @@ ExitCode run_job(std::string_view verb, const JobOptions& options, const std::at
         const Context context = make_context(options, cancel, display);
         ReportInfo info;
         info.run = make_record(verb, options, settings);
-        std::vector<Scan> scans = load_scans(options.inputs, context);
-        std::vector<std::optional<Transform>> poses = load_poses(options, context);
-        summary.unit = convert_to_metres(scans, options.inputs, options.unit, context);
-        convert_to_metres(poses, summary.unit);
-        reconstruction = work(scans, poses, settings, context);
+        JobInput input = load_scans(options.inputs, context);
+        load_poses(input, options, context);
+        summary.unit = convert_to_metres(input.scans, input.paths, options.unit, context);
+        convert_to_metres(input.given_poses, summary.unit);
+        convert_to_metres(input.stored_poses, summary.unit);
+        input.map_shift *= metres_per(summary.unit.unit);
+        reconstruction = work(input, settings, context);
         context.throw_if_cancelled();
         note_unit(summary, reconstruction);
         info.score = summary.score = score(options, reconstruction, context);

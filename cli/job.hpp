@@ -22,18 +22,29 @@ namespace roomscribe::cli {
 Context make_context(const JobOptions& options, const std::atomic<bool>& cancel,
                      ProgressDisplay& display);
 
-/// Reads all scans. Throws IoError if one cannot be read, or holds too few points, or points all in
-/// one place, so that nothing can be found in it.
-std::vector<Scan> load_scans(std::span<const std::string> paths, const Context& context);
+/// What a job works on, one entry per scan in each list.
+struct JobInput {
+    std::vector<Scan> scans;
+    std::vector<std::string> paths;  ///< the file that each is from
+    /// Where they stand by their own files (E57, PTX), less map_shift; empty where that says
+    /// nothing.
+    std::vector<std::optional<Transform>> stored_poses;
+    Eigen::Vector3d map_shift = Eigen::Vector3d::Zero();
+    /// What is said of their poses by hand (--poses); none if nothing is.
+    std::vector<std::optional<Transform>> given_poses;
+};
 
-/// The poses of --poses, one entry per scan; none if no file was given. Throws IoError for a file
-/// that cannot be read or another number of poses.
-std::vector<std::optional<Transform>> load_poses(const JobOptions& options, const Context& context);
+/// Reads all scans of all files. Throws IoError if one cannot be read, or holds too few points, or
+/// points all in one place, so that nothing can be found in it.
+JobInput load_scans(std::span<const std::string> paths, const Context& context);
 
-/// What a job computes from its scans and what is known of their poses (--poses), in metres.
-using Work =
-    std::function<Reconstruction(std::vector<Scan>& scans, KnownPoses poses,
-                                 const PipelineSettings& settings, const Context& context)>;
+/// Adds the poses of --poses. Throws IoError for a file that cannot be read or another number of
+/// poses than scans.
+void load_poses(JobInput& input, const JobOptions& options, const Context& context);
+
+/// What a job computes from its input, in metres.
+using Work = std::function<Reconstruction(JobInput& input, const PipelineSettings& settings,
+                                          const Context& context)>;
 
 /// The frame of every job: resolves the settings, makes the output folder, reads the scans, brings
 /// them into metres, works, writes what was found with run.json and the report, and prints the

@@ -34,7 +34,9 @@ void add_job_options(CLI::App& verb, JobOptions& options) {
 }
 
 void add_scans(CLI::App& verb, JobOptions& options) {
-    verb.add_option("SCANS", options.inputs, "Scans: PCD, PLY, UOS .3d or legacy VTK")
+    verb.add_option("SCANS", options.inputs,
+                    "Scans: PCD, PLY, E57, LAS, PTX, PTS, XYZ, CSV, UOS .3d or legacy VTK; "
+                    "all scans of a file are taken")
         ->type_name("")
         ->required();
     add_unit(verb, options.unit);

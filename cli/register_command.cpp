@@ -17,11 +17,11 @@ void add_register_command(CLI::App& program, Action& action) {
     add_job_options(verb, *options);
     verb.callback([options, &action] {
         action = [options](const std::atomic<bool>& cancel) {
-            return run_job("register", *options, cancel,
-                           [](std::vector<Scan>& scans, KnownPoses poses,
-                              const PipelineSettings& settings, const Context& context) {
-                               return register_to_map(scans, settings, context, poses);
-                           });
+            return run_job(
+                "register", *options, cancel,
+                [](JobInput& input, const PipelineSettings& settings, const Context& context) {
+                    return register_to_map(input.scans, settings, context, input.given_poses);
+                });
         };
     });
 }

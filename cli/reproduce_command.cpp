@@ -38,7 +38,8 @@ Context make_context(const ReproduceOptions& options, const std::atomic<bool>& c
 }
 
 ScanPair load_pair(const std::vector<std::string>& paths, const Context& context) {
-    std::vector<Scan> scans = load_scans(paths, context);
+    std::vector<Scan> scans = load_scans(paths, context).scans;
+    if (scans.size() != 2) throw UsageError("a pair is two scans");
     return {std::move(scans[0]), std::move(scans[1]), {}};
 }
 
@@ -67,8 +68,10 @@ ExitCode reproduce_table_1(const ReproduceOptions& options, const std::atomic<bo
 
 /// Each scan with the one before.
 std::vector<ScanPair> load_pairs(const JobOptions& job, const Context& context) {
-    const std::vector<Scan> scans = load_scans(job.inputs, context);
-    const auto poses = load_poses(job, context);
+    JobInput input = load_scans(job.inputs, context);
+    load_poses(input, job, context);
+    const std::vector<Scan>& scans = input.scans;
+    const auto& poses = input.given_poses;
     std::vector<ScanPair> pairs;
     for (std::size_t i = 1; i < scans.size(); ++i) {
         if (!poses[i - 1] || !poses[i]) continue;

@@ -17,11 +17,11 @@ void add_run_command(CLI::App& program, Action& action) {
     add_job_options(verb, *options);
     verb.callback([options, &action] {
         action = [options](const std::atomic<bool>& cancel) {
-            return run_job("run", *options, cancel,
-                           [](std::vector<Scan>& scans, KnownPoses poses,
-                              const PipelineSettings& settings, const Context& context) {
-                               return reconstruct(scans, settings, context, poses);
-                           });
+            return run_job(
+                "run", *options, cancel,
+                [](JobInput& input, const PipelineSettings& settings, const Context& context) {
+                    return reconstruct(input.scans, settings, context, input.given_poses);
+                });
         };
     });
 }

@@ -17,6 +17,8 @@ namespace roomscribe {
 namespace {
 
 constexpr std::size_t max_line_length = 65536;
+constexpr std::string_view unbacked_cure =
+    "the file is cut off or its header is wrong: copy it again, or split it if it is too large";
 
 }  // namespace
 
@@ -101,17 +103,28 @@ void ByteReader::fail_at_line_of(std::size_t position, std::string_view reason,
                   cure);
 }
 
-void ByteReader::require_backed(std::uint64_t count, std::uint64_t min_bytes,
-                                std::string_view what) const {
+std::string ByteReader::unbacked(std::uint64_t count, std::uint64_t min_bytes,
+                                 std::string_view what) const {
     if (count > std::numeric_limits<std::uint32_t>::max()) {
-        fail_at_line(fmt::format("{} {} are more than 4294967295", count, what),
-                     "split the file, or repair its header");
+        return fmt::format("{} {} are more than 4294967295", count, what);
     }
     if (count > 0 && min_bytes > remaining() / count) {
-        fail_at_line(fmt::format("{} {} of at least {} bytes do not fit into the {} bytes left",
-                                 count, what, min_bytes, remaining()),
-                     "the file is cut off or its header is wrong: copy it again");
+        return fmt::format("{} {} of at least {} bytes do not fit into the {} bytes left", count,
+                           what, min_bytes, remaining());
     }
+    return {};
+}
+
+void ByteReader::require_backed(std::uint64_t count, std::uint64_t min_bytes,
+                                std::string_view what) const {
+    const std::string reason = unbacked(count, min_bytes, what);
+    if (!reason.empty()) fail_at_line(reason, unbacked_cure);
+}
+
+void ByteReader::require_backed_at_byte(std::uint64_t count, std::uint64_t min_bytes,
+                                        std::string_view what) const {
+    const std::string reason = unbacked(count, min_bytes, what);
+    if (!reason.empty()) fail_at_byte(reason, unbacked_cure);
 }
 
 }  // namespace roomscribe

@@ -72,6 +72,10 @@ class ByteReader {
     /// read with this: a line of more than 64 KiB is refused.
     std::string_view read_line();
 
+    /// The whole file as text.
+    std::string_view whole_text() const {
+        return {reinterpret_cast<const char*>(bytes_.data()), bytes_.size()};
+    }
     /// All that is left, as text; leaves the position alone.
     std::string_view remaining_text() const;
     /// Goes on behind `size` bytes of what is left. Precondition: size <= remaining().
@@ -88,8 +92,14 @@ class ByteReader {
     /// cannot stand in what is left of the file, or exceed 2^32 - 1: a header that promises more
     /// than there is must not make anyone allocate.
     void require_backed(std::uint64_t count, std::uint64_t min_bytes, std::string_view what) const;
+    /// The same for headers that are no text: the error names the present byte.
+    void require_backed_at_byte(std::uint64_t count, std::uint64_t min_bytes,
+                                std::string_view what) const;
 
   private:
+    /// Why that is refused; empty if nothing is wrong.
+    std::string unbacked(std::uint64_t count, std::uint64_t min_bytes, std::string_view what) const;
+
     std::span<const std::byte> bytes_;
     std::string path_;
     std::string format_;

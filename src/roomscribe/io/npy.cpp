@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "roomscribe/io/npy.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -11,7 +13,10 @@
 
 #include "roomscribe/io/atomic_file.hpp"
 #include "roomscribe/io/byte_reader.hpp"
+#include "roomscribe/io/guessed_columns.hpp"
 #include "roomscribe/io/number_text.hpp"
+#include "roomscribe/io/point_decoder.hpp"
+#include "roomscribe/io/row_fields.hpp"
 
 namespace roomscribe {
 namespace {
@@ -62,6 +67,22 @@ std::optional<std::uint64_t> only_dimension(std::string_view text) {
     return words.size() == 1 ? parse_count(words[0]) : std::nullopt;
 }
 
+/// The two numbers of "(5, 3)"; empty for any other number of dimensions.
+std::optional<std::array<std::uint64_t, 2>> two_dimensions(std::string_view text) {
+    const std::size_t end = text.find(')');
+    if (!text.starts_with('(') || end == std::string_view::npos) return std::nullopt;
+    const std::string_view inside = text.substr(1, end - 1);
+    const std::size_t comma = inside.find(',');
+    if (comma == std::string_view::npos) return std::nullopt;
+    const auto rows = split_words(inside.substr(0, comma));
+    const auto columns = split_words(inside.substr(comma + 1));
+    if (rows.size() != 1 || columns.size() != 1) return std::nullopt;
+    const auto num_rows = parse_count(rows[0]);
+    const auto num_columns = parse_count(columns[0]);
+    if (!num_rows || !num_columns) return std::nullopt;
+    return std::array<std::uint64_t, 2>{*num_rows, *num_columns};
+}
+
 std::string_view read_header(ByteReader& reader) {
     const auto text_of = [](std::span<const std::byte> bytes) {
         return std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size());
@@ -103,6 +124,72 @@ std::vector<Value> read_npy(const std::filesystem::path& path) {
     for (Value& value : values)
         value = reader.read<Value>();
     return values;
+}
+
+FileContents read_npy_points(const std::filesystem::path& path, const Context& context) {
+    constexpr std::string_view points_cure =
+        "save an array of N x 3 to 6 float32 or float64 with numpy.save";
+    constexpr std::size_t rows_to_guess_by = 1000;
+    const MappedFile file(path, format_name);
+    ByteReader reader(file, format_name);
+    const std::string_view header = read_header(reader);
+    const std::string_view code = quoted_word(after_key(header, "descr")).value_or("");
+    if (code != "<f4" && code != "<f8") {
+        reader.fail_at_byte(fmt::format("the elements are {}", quote_text(code)), points_cure);
+    }
+    const ScalarType type = code == "<f4" ? ScalarType::float32 : ScalarType::float64;
+    const auto shape = two_dimensions(after_key(header, "shape"));
+    if (!shape || (*shape)[1] < 3 || (*shape)[1] > 6) {
+        reader.fail_at_byte("the array has not two dimensions, the second of 3 to 6", points_cure);
+    }
+    const auto [num_rows, num_columns] = *shape;
+    const std::size_t size = size_of(type);
+    reader.require_backed_at_byte(num_rows, num_columns * size, "points");
+    const std::byte* const first = reader.take(num_rows * num_columns * size).data();
+    const bool by_column = after_key(header, "fortran_order").starts_with("True");
+    std::vector<FieldSource> sources;
+    for (std::size_t k = 0; k < num_columns; ++k) {
+        sources.push_back(by_column ? FieldSource{first + k * num_rows * size, size}
+                                    : FieldSource{first + k * size, num_columns * size});
+    }
+
+    const bool swap = std::endian::native == std::endian::big;
+    const auto value_at = [&](std::size_t row, std::size_t column) {
+        return load_as_double(sources[column].first + row * sources[column].stride, type, swap);
+    };
+    std::vector<std::vector<double>> rows;
+    for (std::size_t i = 0; i < std::min<std::size_t>(num_rows, rows_to_guess_by); ++i) {
+        std::vector<double>& row = rows.emplace_back();
+        for (std::size_t k = 0; k < num_columns; ++k)
+            row.push_back(value_at(i, k));
+    }
+    if (rows.empty()) rows.emplace_back(num_columns, 0.0);
+    const std::vector<std::string> names = columns_of_numbers(rows);
+    const double color_factor = guess_color_factor(names, rows);
+
+    FileContents contents;
+    contents.format = format_name;
+    contents.encoding = code;
+    std::vector<Field> decoded;
+    std::vector<std::size_t> colors;
+    for (std::size_t k = 0; k < num_columns; ++k) {
+        contents.fields.push_back({names[k], type, 1});
+        const bool color = names[k] == "red" || names[k] == "green" || names[k] == "blue";
+        if (color) colors.push_back(k);
+        decoded.push_back({color ? "_" : names[k], type, 1});
+    }
+    contents.warnings.push_back(
+        fmt::format("columns, told by their numbers: {}", fmt::join(names, " ")));
+    context.report_message(path.filename().string() + ": " + contents.warnings.front());
+    PointDecoder decoder(decoded, num_rows);
+    decoder.decode(sources, 0, num_rows, std::endian::little, context);
+    contents.cloud = decoder.finish(std::nullopt, std::nullopt);
+    for (std::size_t i = 0; i < num_rows && !colors.empty(); ++i) {
+        auto& color = contents.cloud.colors.emplace_back();
+        for (std::size_t k = 0; k < 3; ++k)
+            color[k] = color_byte(value_at(i, colors[k]) * color_factor);
+    }
+    return contents;
 }
 
 template <typename Value>

@@ -5,6 +5,9 @@
 #include <span>
 #include <vector>
 
+#include "roomscribe/core/context.hpp"
+#include "roomscribe/io/file_contents.hpp"
+
 namespace roomscribe {
 
 /// Reads a one-dimensional NumPy array (.npy, format 1 or 2, little endian) whose element type is
@@ -18,5 +21,10 @@ std::vector<Value> read_npy(const std::filesystem::path& path);
 /// all. Throws IoError if it cannot be written.
 template <typename Value>
 void write_npy(const std::filesystem::path& path, std::span<const Value> values);
+
+/// Reads points: a two-dimensional array of float32 or float64, of either order, with 3 to 6
+/// columns, which are told by their numbers as those of text are (guessed_columns.hpp). Throws
+/// IoError as read_npy does.
+FileContents read_npy_points(const std::filesystem::path& path, const Context& context);
 
 }  // namespace roomscribe

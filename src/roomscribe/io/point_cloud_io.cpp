@@ -3,14 +3,21 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "roomscribe/core/error.hpp"
 #include "roomscribe/io/byte_reader.hpp"
+#include "roomscribe/io/e57.hpp"
 #include "roomscribe/io/file_contents.hpp"
+#include "roomscribe/io/las.hpp"
+#include "roomscribe/io/npy.hpp"
 #include "roomscribe/io/pcd.hpp"
 #include "roomscribe/io/ply.hpp"
+#include "roomscribe/io/ptx.hpp"
+#include "roomscribe/io/text_points.hpp"
 #include "roomscribe/io/uos.hpp"
 #include "roomscribe/io/vtk.hpp"
 
@@ -20,6 +27,14 @@ namespace {
 /// Half the points of an indoor place lie nearer to its middle than this, in metres.
 constexpr double largest_median_distance = 100.0;
 
+/// As PointDecoder does with far coordinates.
+constexpr double largest_near_coordinate = 1000.0;
+constexpr double shift_step = 100.0;
+
+bool is_text_extension(std::string_view extension) {
+    return extension == ".xyz" || extension == ".txt" || extension == ".asc" || extension == ".csv";
+}
+
 std::string lower_extension(const std::filesystem::path& path) {
     std::string extension = path.extension().string();
     for (char& c : extension)
@@ -27,16 +42,63 @@ std::string lower_extension(const std::filesystem::path& path) {
     return extension;
 }
 
-FileContents read_contents(const std::filesystem::path& path, const Context& context) {
+std::vector<FileContents> read_contents(const std::filesystem::path& path, const Context& context) {
+    using ReadOne = FileContents (*)(const std::filesystem::path&, const Context&);
+    using ReadAll = std::vector<FileContents> (*)(const std::filesystem::path&, const Context&);
+    constexpr std::pair<std::string_view, ReadOne> single[] = {
+        {".pcd", read_pcd},         {".ply", read_ply},         {".3d", read_uos},
+        {".vtk", read_vtk},         {".las", read_las},         {".laz", read_las},
+        {".pts", read_text_points}, {".xyz", read_text_points}, {".txt", read_text_points},
+        {".asc", read_text_points}, {".csv", read_text_points}, {".npy", read_npy_points}};
+    constexpr std::pair<std::string_view, ReadAll> several[] = {{".e57", read_e57},
+                                                                {".ptx", read_ptx}};
     const std::string extension = lower_extension(path);
-    if (extension == ".pcd") return read_pcd(path, context);
-    if (extension == ".ply") return read_ply(path, context);
-    if (extension == ".3d") return read_uos(path, context);
-    if (extension == ".vtk") return read_vtk(path, context);
+    for (const auto& [known, read] : several) {
+        if (extension == known) return read(path, context);
+    }
+    std::vector<FileContents> contents;
+    for (const auto& [known, read] : single) {
+        if (extension != known) continue;
+        contents.push_back(read(path, context));
+        return contents;
+    }
     // A missing file or a folder is the better message.
     const MappedFile file(path, "");
     throw IoError(file.path(), "", {}, fmt::format("the extension '{}' is unknown", extension),
-                  "give a .pcd, .ply, .3d or .vtk file");
+                  "give a .pcd, .ply, .e57, .las, .ptx, .pts, .xyz, .txt, .asc, .csv, .npy, .3d or "
+                  ".vtk file");
+}
+
+/// The part of far coordinates that a map is kept without, in steps as for clouds.
+Eigen::Vector3d choose_map_shift(const Eigen::Vector3d& place) {
+    Eigen::Vector3d shift = Eigen::Vector3d::Zero();
+    for (Eigen::Index k = 0; k < 3; ++k) {
+        if (std::abs(place[k]) > largest_near_coordinate) {
+            shift[k] = std::round(place[k] / shift_step) * shift_step;
+        }
+    }
+    return shift;
+}
+
+/// "hall.e57#2", or with the scan's own name.
+std::string name_in_file(const std::string& file, std::span<const FileContents> all,
+                         std::size_t i) {
+    if (all.size() == 1) return file;
+    const std::string& own = all[i].name;
+    const auto same = std::count_if(all.begin(), all.end(),
+                                    [&](const FileContents& other) { return other.name == own; });
+    return own.empty() || same > 1 ? fmt::format("{}#{}", file, i + 1)
+                                   : fmt::format("{}#{}", file, own);
+}
+
+/// Of formats that have one only.
+void require_encoding(Encoding encoding, Encoding only, std::string_view allowed) {
+    if (encoding == Encoding::automatic || encoding == only) return;
+    const std::string_view name = encoding == Encoding::ascii               ? "ascii"
+                                  : encoding == Encoding::binary            ? "binary"
+                                  : encoding == Encoding::binary_compressed ? "binary_compressed"
+                                                                            : "binary_big_endian";
+    throw InvalidArgument("encoding", name, allowed);
 }
 
 void add_warnings(FileSummary& summary, const PointCloud& cloud,
@@ -59,30 +121,10 @@ void add_warnings(FileSummary& summary, const PointCloud& cloud,
     }
 }
 
-}  // namespace
-
-Scan read_scan(const std::filesystem::path& path, const Context& context) {
-    return {path.filename().string(), read_contents(path, context).cloud};
-}
-
-void write_point_cloud(const std::filesystem::path& path, const PointCloud& cloud,
-                       const WriteOptions& options, const Context& context) {
-    const std::string extension = lower_extension(path);
-    if (extension == ".pcd") return write_pcd(path, cloud, options.encoding, context);
-    if (extension == ".ply") return write_ply(path, cloud, options.encoding, context);
-    if (extension != ".3d") {
-        throw InvalidArgument("path", path.string(), "a .pcd, .ply or .3d file");
-    }
-    if (options.encoding != Encoding::automatic && options.encoding != Encoding::ascii) {
-        throw InvalidArgument("encoding", "binary", "ascii for .3d");
-    }
-    write_uos(path, cloud, context);
-}
-
-FileSummary summarize_file(const std::filesystem::path& path, const Context& context) {
-    FileContents contents = read_contents(path, context);
+FileSummary summarize(FileContents contents) {
     const PointCloud& cloud = contents.cloud;
     FileSummary summary;
+    summary.name = std::move(contents.name);
     summary.format = std::move(contents.format);
     summary.encoding = std::move(contents.encoding);
     summary.num_points = cloud.size();
@@ -90,6 +132,7 @@ FileSummary summarize_file(const std::filesystem::path& path, const Context& con
     summary.grid = cloud.grid;
     summary.sensor_pose = cloud.sensor_pose;
     if (summary.sensor_pose) summary.sensor_pose->translation() += cloud.global_shift;
+    summary.map_from_scan = contents.map_from_scan;
     summary.warnings = std::move(contents.warnings);
 
     const std::vector<std::uint32_t> finite = finite_points(cloud);
@@ -99,6 +142,87 @@ FileSummary summarize_file(const std::filesystem::path& path, const Context& con
     }
     add_warnings(summary, cloud, finite);
     return summary;
+}
+
+}  // namespace
+
+bool may_hold_poses(const std::filesystem::path& path) {
+    const std::string extension = lower_extension(path);
+    return extension == ".e57" || extension == ".ptx";
+}
+
+std::vector<StoredScan> read_scans(const std::filesystem::path& path, const Context& context) {
+    std::vector<FileContents> all = read_contents(path, context);
+    const std::string file = path.filename().string();
+    std::vector<StoredScan> scans;
+    std::optional<Eigen::Vector3d> shift;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        const std::string name = name_in_file(file, all, i);
+        StoredScan stored{{name, std::move(all[i].cloud)}, all[i].map_from_scan};
+        if (stored.map_from_scan) {
+            Transform& pose = *stored.map_from_scan;
+            pose.translation() += pose.linear() * stored.scan.cloud.global_shift;
+            if (!shift) shift = choose_map_shift(pose.translation());
+            pose.translation() -= *shift;
+        }
+        scans.push_back(std::move(stored));
+    }
+    for (StoredScan& stored : scans)
+        stored.map_shift = shift.value_or(Eigen::Vector3d::Zero());
+    return scans;
+}
+
+Scan read_scan(const std::filesystem::path& path, const Context& context) {
+    std::vector<StoredScan> stored = read_scans(path, context);
+    if (stored.size() == 1) return std::move(stored.front().scan);
+    std::vector<Scan> scans;
+    std::vector<std::optional<Transform>> poses;
+    for (StoredScan& one : stored) {
+        if (!one.map_from_scan) {
+            throw IoError(
+                path.string(), "", {},
+                fmt::format("it holds {} scans, and not where all of them stand", stored.size()),
+                "register them first: roomscribe register FILE -o OUT");
+        }
+        scans.push_back(std::move(one.scan));
+        poses.push_back(one.map_from_scan);
+    }
+    PointCloud map = merge_scans(scans, poses).cloud;
+    map.global_shift = stored.front().map_shift;
+    return {path.filename().string(), std::move(map)};
+}
+
+void write_point_cloud(const std::filesystem::path& path, const PointCloud& cloud,
+                       const WriteOptions& options, const Context& context) {
+    const std::string extension = lower_extension(path);
+    if (extension == ".pcd") return write_pcd(path, cloud, options.encoding, context);
+    if (extension == ".ply") return write_ply(path, cloud, options.encoding, context);
+    if (extension == ".las") {
+        require_encoding(options.encoding, Encoding::binary, "binary for .las");
+        return write_las(path, cloud, context);
+    }
+    if (extension == ".3d") {
+        require_encoding(options.encoding, Encoding::ascii, "ascii for .3d");
+        return write_uos(path, cloud, context);
+    }
+    if (extension == ".e57") {
+        require_encoding(options.encoding, Encoding::binary, "binary for .e57");
+        const StoredScan stored{{path.stem().string(), cloud}, std::nullopt};
+        return write_e57(path, {&stored, 1}, context);
+    }
+    if (is_text_extension(extension)) {
+        require_encoding(options.encoding, Encoding::ascii, "ascii for text");
+        return write_text_points(path, cloud, context);
+    }
+    throw InvalidArgument("path", path.string(),
+                          "a .pcd, .ply, .e57, .las, .xyz, .txt, .asc, .csv or .3d file");
+}
+
+std::vector<FileSummary> summarize_file(const std::filesystem::path& path, const Context& context) {
+    std::vector<FileSummary> summaries;
+    for (FileContents& contents : read_contents(path, context))
+        summaries.push_back(summarize(std::move(contents)));
+    return summaries;
 }
 
 }  // namespace roomscribe

@@ -22,7 +22,11 @@ namespace roomscribe {
 //   .pcd        ascii, binary, binary_compressed  the same                  all (1)
 //   .ply        ascii, binary little/big endian   the same                  all (2)
 //   .3d         3DTK's UOS text                   the same                  intensity (3)
-//   .vtk        legacy points, ascii and binary   no                        nothing
+//   .e57        all scans, every coding of numbers  one scan                all but the sensor pose
+//   (6) .las        1.0 to 1.4, point formats 0-10    1.4, formats 6 and 7      all (4) .ptx all
+//   scans of the file             no                        intensity, colours, grid .pts .xyz .txt
+//   .asc .csv   ascii, guessed     .xyz .txt .asc .csv       all but grid and pose (5) .vtk legacy
+//   points, ascii and binary   no                        nothing
 //
 // "All" are normals, colours, intensities, the scan grid, the sensor pose, and any other property
 // as a channel under its own name and type. Conversions between PCD and PLY keep all of them.
@@ -32,6 +36,9 @@ namespace roomscribe {
 //     `num_cols`. List properties and other elements (faces) are dropped. A channel of n values
 //     per point is written as n properties name_0, name_1, ...; a 64-bit integer as double.
 // (3) Centimetres, left-handed, y up in the file; see uos.hpp.
+// (4) No grid, no pose, and no points without coordinates; see las.hpp.
+// (5) See text_points.hpp.
+// (6) See e57.hpp.
 //
 // `x y z` may be of any type. `nx ny nz` or `normal_x normal_y normal_z` of a floating type are the
 // normals; `red green blue` of uchar, or a packed 4-byte `rgb` or `rgba`, the colours (alpha is
@@ -57,21 +64,43 @@ struct WriteOptions {
 
 /// What is in a file, for people.
 struct FileSummary {
-    std::string format;    ///< "PCD", "PLY", "UOS", "VTK"
+    std::string name;      ///< what the file calls the scan; mostly empty
+    std::string format;    ///< "PCD", "PLY", "E57", "LAS", "PTX", "PTS", "text", "UOS", "VTK"
     std::string encoding;  ///< as the format calls it: "binary_compressed"
     std::size_t num_points = 0;
     std::vector<Field> fields;  ///< of a point, in file order, those that are not read too
     std::optional<ScanGrid> grid;
     std::optional<Transform> sensor_pose;  ///< in the file's coordinates
-    Eigen::AlignedBox3d bounds;            ///< of the finite points, in metres; empty if none is
+    std::optional<Transform>
+        map_from_scan;           ///< likewise, where the file says where the scan stands
+    Eigen::AlignedBox3d bounds;  ///< of the finite points, in metres; empty if none is
     std::size_t num_non_finite = 0;
     std::vector<std::string> warnings;  ///< such as "the coordinates look like millimetres"
 };
 
-/// Reads one scan; its name is the file's name without folders. Throws IoError if the file cannot
-/// be read, is not what its extension says, is cut off or malformed, or has more than 2^32 - 1
-/// points. The memory taken never exceeds a small multiple of the file's real size (a large one for
-/// binary_compressed, whose compression is at most 88-fold).
+/// One scan of a file, and where it stands if the file says so.
+struct StoredScan {
+    Scan scan;
+    /// The scan's frame -> the file's map, less map_shift.
+    std::optional<Transform> map_from_scan;
+    /// Far maps are kept small: the file's map coordinates = map_from_scan * positions + map_shift.
+    /// The same for all scans of a file.
+    Eigen::Vector3d map_shift = Eigen::Vector3d::Zero();
+};
+
+/// Whether files with this extension may say where their scans stand.
+bool may_hold_poses(const std::filesystem::path& path);
+
+/// Reads all scans of a file, at least one, in its order. Their names are the file's name without
+/// folders; where there are several, with '#' and the scan's own name or, if it has none or others
+/// have the same, its number, from 1. Throws as read_scan does.
+std::vector<StoredScan> read_scans(const std::filesystem::path& path, const Context& context = {});
+
+/// Reads a file as one scan: of several scans the file must say how they stand, and they are put
+/// one after another into one map. Its name is the file's name without folders. Throws IoError if
+/// the file cannot be read, is not what its extension says, is cut off or malformed, or has more
+/// than 2^32 - 1 points. The memory taken never exceeds a small multiple of the file's real size (a
+/// large one for binary_compressed, whose compression is at most 88-fold).
 Scan read_scan(const std::filesystem::path& path, const Context& context = {});
 
 /// Writes one cloud; the file appears whole or not at all (see AtomicFile). What the format cannot
@@ -81,7 +110,8 @@ Scan read_scan(const std::filesystem::path& path, const Context& context = {});
 void write_point_cloud(const std::filesystem::path& path, const PointCloud& cloud,
                        const WriteOptions& options = {}, const Context& context = {});
 
-/// Reads the whole file and says what is in it. Throws as read_scan does.
-FileSummary summarize_file(const std::filesystem::path& path, const Context& context = {});
+/// Reads the whole file and says what is in each of its scans. Throws as read_scan does.
+std::vector<FileSummary> summarize_file(const std::filesystem::path& path,
+                                        const Context& context = {});
 
 }  // namespace roomscribe

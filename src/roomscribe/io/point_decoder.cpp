@@ -31,7 +31,8 @@ struct SourceRun {
 
 namespace {
 
-constexpr std::size_t points_per_chunk = 1U << 16U;
+/// Records of so many points stay in the cache while one field after another is taken from them.
+constexpr std::size_t points_per_chunk = 1U << 12U;
 /// float32 holds 0.06 mm up to here.
 constexpr double largest_near_coordinate = 1000.0;
 constexpr double shift_step = 100.0;
@@ -66,16 +67,16 @@ std::optional<std::size_t> find_field(std::span<const Field> fields, Names names
     return std::nullopt;
 }
 
-/// Converts one value per point to float32, less a shift.
+/// Converts one value per point to float32: value * scale + offset.
 void convert_column(float* target, std::size_t target_stride, FieldSource source, ScalarType type,
-                    bool swap, double shift, std::size_t count) {
+                    bool swap, double scale, double offset, std::size_t count) {
     with_scalar_type(type, [&]<typename Value>(std::type_identity<Value>) {
         auto* bytes = reinterpret_cast<std::byte*>(target);
         for (std::size_t i = 0; i < count; ++i) {
             Value value;
             std::memcpy(&value, source.first + i * source.stride, sizeof(Value));
             if (swap) value = swap_bytes(value);
-            const auto converted = static_cast<float>(static_cast<double>(value) - shift);
+            const auto converted = static_cast<float>(static_cast<double>(value) * scale + offset);
             std::memcpy(bytes + i * target_stride, &converted, sizeof(float));
         }
     });
@@ -101,10 +102,10 @@ void copy_triple(std::byte* target, const SourceRun& run, const std::array<std::
     }
 }
 
-/// Three values per point to float32; float32 keeps its bits.
+/// Three values per point to float32, value * scale + offset; float32 keeps its bits.
 void decode_vectors(std::vector<Eigen::Vector3f>& vectors, const SourceRun& run,
                     const std::array<std::size_t, 3>& fields, std::span<const Field> all,
-                    const Eigen::Vector3d& shift) {
+                    const Eigen::Vector3d& scale, const Eigen::Vector3d& offset) {
     Eigen::Vector3f* target = vectors.data() + run.first;
     const bool exact = std::all_of(fields.begin(), fields.end(), [&](std::size_t field) {
         return all[field].type == ScalarType::float32;
@@ -114,9 +115,9 @@ void decode_vectors(std::vector<Eigen::Vector3f>& vectors, const SourceRun& run,
         return;
     }
     for (std::size_t k = 0; k < 3; ++k) {
+        const auto axis = static_cast<Eigen::Index>(k);
         convert_column(target->data() + k, sizeof(Eigen::Vector3f), run.source(fields[k]),
-                       all[fields[k]].type, run.swap, shift[static_cast<Eigen::Index>(k)],
-                       run.count);
+                       all[fields[k]].type, run.swap, scale[axis], offset[axis], run.count);
     }
 }
 
@@ -187,6 +188,11 @@ PointDecoder::PointDecoder(std::span<const Field> fields, std::size_t num_points
     }
 }
 
+void PointDecoder::quantize_positions(const Eigen::Vector3d& scale, const Eigen::Vector3d& offset) {
+    scale_ = scale;
+    offset_ = offset;
+}
+
 void PointDecoder::choose_global_shift(const SourceRun& run) {
     for (std::size_t i = 0; i < run.count && !shift_known_; ++i) {
         Eigen::Vector3d point;
@@ -196,6 +202,7 @@ void PointDecoder::choose_global_shift(const SourceRun& run) {
             point[static_cast<Eigen::Index>(k)] =
                 load_as_double(source.first + i * source.stride, fields_[field].type, run.swap);
         }
+        point = point.cwiseProduct(scale_) + offset_;
         if (!(point.cwiseAbs().maxCoeff() < largest_map_coordinate)) continue;
         shift_known_ = true;
         for (std::size_t k = 0; k < 3; ++k) {
@@ -221,9 +228,11 @@ void PointDecoder::decode(std::span<const FieldSource> sources, std::size_t firs
 }
 
 void PointDecoder::decode_run(const SourceRun& run) {
-    decode_vectors(cloud_.positions, run, position_.fields, fields_, cloud_.global_shift);
+    decode_vectors(cloud_.positions, run, position_.fields, fields_, scale_,
+                   offset_ - cloud_.global_shift);
     if (normal_) {
-        decode_vectors(cloud_.normals, run, normal_->fields, fields_, Eigen::Vector3d::Zero());
+        decode_vectors(cloud_.normals, run, normal_->fields, fields_, Eigen::Vector3d::Ones(),
+                       Eigen::Vector3d::Zero());
     }
     if (color_) {
         copy_triple(reinterpret_cast<std::byte*>(cloud_.colors.data() + run.first), run,
@@ -248,7 +257,7 @@ void PointDecoder::decode_run(const SourceRun& run) {
             copy_values(reinterpret_cast<std::byte*>(target), sizeof(float), source.first,
                         source.stride, sizeof(float), 1, run.count, run.swap);
         } else {
-            convert_column(target, sizeof(float), source, type, run.swap, 0.0, run.count);
+            convert_column(target, sizeof(float), source, type, run.swap, 1.0, 0.0, run.count);
         }
     }
     for (std::size_t i = 0; i < channel_fields_.size(); ++i) {

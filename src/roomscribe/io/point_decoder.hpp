@@ -37,6 +37,9 @@ class PointDecoder {
     /// Makes room for the points. Precondition: has_positions(fields).
     PointDecoder(std::span<const Field> fields, std::size_t num_points);
 
+    /// Positions in the file are steps: value * scale + offset, in double. Call it before decode.
+    void quantize_positions(const Eigen::Vector3d& scale, const Eigen::Vector3d& offset);
+
     static bool has_positions(std::span<const Field> fields);
 
     /// Sets the points [first, first + count) from sources, one per field, in the given byte order.
@@ -63,6 +66,8 @@ class PointDecoder {
     std::optional<std::size_t> packed_color_;
     std::optional<std::size_t> intensity_;
     std::vector<std::size_t> channel_fields_;  ///< the field of each channel
+    Eigen::Vector3d scale_ = Eigen::Vector3d::Ones();
+    Eigen::Vector3d offset_ = Eigen::Vector3d::Zero();
     bool shift_known_ = false;
     PointCloud cloud_;
 };

@@ -30,6 +30,25 @@ bool is_word(std::string_view name) {
            std::all_of(name.begin(), name.end(), [](char c) { return c > ' ' && c != '\x7f'; });
 }
 
+/// The values of a channel as doubles; PLY has no 64-bit integers.
+std::vector<double> as_doubles(const Channel& channel) {
+    std::vector<double> doubles(channel.values.size() / size_of(channel.type));
+    with_scalar_type(channel.type, [&]<typename Value>(std::type_identity<Value>) {
+        for (std::size_t i = 0; i < doubles.size(); ++i) {
+            Value value;
+            std::memcpy(&value, channel.values.data() + i * sizeof(Value), sizeof(Value));
+            doubles[i] = static_cast<double>(value);
+            if (std::abs(doubles[i]) > largest_exact_integer) {
+                throw InvalidArgument("channel " + channel.name, fmt::format("{}", value),
+                                      "within +-2^53 for PLY; PCD holds any");
+            }
+        }
+    });
+    return doubles;
+}
+
+}  // namespace
+
 void check_cloud(const PointCloud& cloud) {
     check_length("normals", cloud.normals.size(), cloud.size());
     check_length("colors", cloud.colors.size(), cloud.size());
@@ -51,25 +70,6 @@ void check_cloud(const PointCloud& cloud) {
                               fmt::format("as many cells as points ({})", cloud.size()));
     }
 }
-
-/// The values of a channel as doubles; PLY has no 64-bit integers.
-std::vector<double> as_doubles(const Channel& channel) {
-    std::vector<double> doubles(channel.values.size() / size_of(channel.type));
-    with_scalar_type(channel.type, [&]<typename Value>(std::type_identity<Value>) {
-        for (std::size_t i = 0; i < doubles.size(); ++i) {
-            Value value;
-            std::memcpy(&value, channel.values.data() + i * sizeof(Value), sizeof(Value));
-            doubles[i] = static_cast<double>(value);
-            if (std::abs(doubles[i]) > largest_exact_integer) {
-                throw InvalidArgument("channel " + channel.name, fmt::format("{}", value),
-                                      "within +-2^53 for PLY; PCD holds any");
-            }
-        }
-    });
-    return doubles;
-}
-
-}  // namespace
 
 PointColumns::PointColumns(const PointCloud& cloud, FieldStyle style) : num_points_(cloud.size()) {
     check_cloud(cloud);
@@ -125,7 +125,7 @@ void PointColumns::add_positions(const PointCloud& cloud) {
 }
 
 void PointColumns::add_colors(const PointCloud& cloud, FieldStyle style) {
-    if (style == FieldStyle::ply) {
+    if (style != FieldStyle::pcd) {
         const std::array<std::string, 3> names = {"red", "green", "blue"};
         for (std::size_t k = 0; k < 3; ++k) {
             add(names[k], ScalarType::uint8, cloud.colors.data()->data() + k, 3);
@@ -147,7 +147,8 @@ void PointColumns::add_channel(const Channel& channel, FieldStyle style) {
                             channel.bytes_per_point()});
         return;
     }
-    const bool widened = channel.type == ScalarType::int64 || channel.type == ScalarType::uint64;
+    const bool widened = style == FieldStyle::ply &&
+                         (channel.type == ScalarType::int64 || channel.type == ScalarType::uint64);
     const ScalarType type = widened ? ScalarType::float64 : channel.type;
     const std::byte* first = channel.values.data();
     if (widened) {
@@ -192,14 +193,15 @@ void write_records(AtomicFile& file, const PointColumns& points, std::endian ord
     }
 }
 
-void write_text(AtomicFile& file, const PointColumns& points, const Context& context) {
+void write_text(AtomicFile& file, const PointColumns& points, const Context& context,
+                char separator) {
     std::string text;
     for (std::size_t i = 0; i < points.num_points(); ++i) {
         for (const FieldColumn& column : points.columns()) {
             const std::byte* value = column.first + i * column.stride;
             for (std::size_t k = 0; k < column.field.count; ++k) {
                 append_number(text, column.field.type, value + k * size_of(column.field.type));
-                text += ' ';
+                text += separator;
             }
         }
         text.back() = '\n';

@@ -25,14 +25,17 @@ struct FieldColumn {
 };
 
 /// How a format calls and holds the properties of points.
-enum class FieldStyle { pcd, ply };
+enum class FieldStyle { pcd, ply, las };
+
+/// Throws InvalidArgument if the cloud's arrays differ in length or a channel's name is not a word.
+void check_cloud(const PointCloud& cloud);
 
 /// A cloud as the fields of a file, in the order positions, normals, colours, intensity, channels.
 /// It looks into the cloud, which must outlive it.
 class PointColumns {
   public:
-    /// Throws InvalidArgument if the cloud's arrays differ in length, a channel's name is not a
-    /// word, or PLY cannot hold a value (a 64-bit integer beyond 2^53).
+    /// Throws InvalidArgument as check_cloud does, or if PLY cannot hold a value (a 64-bit integer
+    /// beyond 2^53).
     PointColumns(const PointCloud& cloud, FieldStyle style);
 
     std::span<const FieldColumn> columns() const { return columns_; }
@@ -56,6 +59,7 @@ void write_records(AtomicFile& file, const PointColumns& columns, std::endian or
                    const Context& context);
 
 /// Writes the points as lines of text.
-void write_text(AtomicFile& file, const PointColumns& columns, const Context& context);
+void write_text(AtomicFile& file, const PointColumns& columns, const Context& context,
+                char separator = ' ');
 
 }  // namespace roomscribe

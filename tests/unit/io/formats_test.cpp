@@ -131,7 +131,8 @@ TEST(Ply, BinaryListsAreSkippedBothBeforeAndInVertices) {
     ASSERT_EQ(cloud.size(), 2U);
     EXPECT_EQ(cloud.positions[0], Eigen::Vector3f(1, 2, 3));
     EXPECT_EQ(cloud.positions[1], Eigen::Vector3f(4, 5, 6));
-    EXPECT_THAT(summarize_file(folder / "a.ply").warnings.at(0), testing::HasSubstr("list"));
+    EXPECT_THAT(summarize_file(folder / "a.ply").front().warnings.at(0),
+                testing::HasSubstr("list"));
 }
 
 TEST(Ply, IntensityNamesTypesAndChannels) {
@@ -231,7 +232,7 @@ TEST(Summary, NamesWhatIsInTheFile) {
                       "FIELDS x y z label\nSIZE 4 4 4 1\nTYPE F F F U\nCOUNT 1 1 1 3\nWIDTH 2\n"
                       "HEIGHT 2\nVIEWPOINT 0 0 2 1 0 0 0\nDATA ascii\n1000 2000 1 1 2 3\n"
                       "nan 0 0 1 2 3\n9000 8000 1 1 2 3\n1e9 0 inf 1 2 3\n");
-    const FileSummary summary = summarize_file(folder / "a.pcd");
+    const FileSummary summary = summarize_file(folder / "a.pcd").front();
     EXPECT_EQ(summary.format, "PCD");
     EXPECT_EQ(summary.encoding, "ascii");
     EXPECT_EQ(summary.num_points, 4U);

@@ -9,6 +9,7 @@
 
 #include "io_test_clouds.hpp"
 #include "roomscribe/core/error.hpp"
+#include "roomscribe/io/point_cloud_io.hpp"
 #include "support/test_data.hpp"
 
 namespace roomscribe {
@@ -91,6 +92,49 @@ TEST(Npy, SaysWhatIsWrong) {
     for (std::size_t size = 1; size < 127; ++size)
         EXPECT_NE(error_of(numpy_bytes().substr(0, size)), "was read");
     EXPECT_THROW(read_npy<std::uint8_t>("absent.npy"), IoError);
+}
+
+std::string npy_file(const std::string& dictionary, const std::string& elements) {
+    std::string bytes("\x93NUMPY\x01\x00", 8);
+    bytes += static_cast<char>(dictionary.size());
+    bytes += '\0';
+    return bytes + dictionary + elements;
+}
+
+TEST(NpyPoints, ReadsBothOrdersAndTypes) {
+    const test::TemporaryFolder folder;
+    const float rows[] = {1, 2, 3, 10, 20, 30, 4, 5, 6, 11, 21, 31};
+    const double columns[] = {1, 4, 2, 5, 3, 6, 10, 11, 20, 21, 30, 31};
+    const auto text = [](const auto& list) {
+        return std::string(reinterpret_cast<const char*>(list), sizeof(list));
+    };
+    for (const std::string& bytes :
+         {npy_file("{'descr': '<f4', 'fortran_order': False, 'shape': (2, 6), }\n", text(rows)),
+          npy_file("{'descr': '<f8', 'fortran_order': True, 'shape': (2, 6), }\n",
+                   text(columns))}) {
+        test::write_bytes(folder / "a.npy", bytes);
+        const PointCloud cloud = read_scan(folder / "a.npy").cloud;
+        ASSERT_EQ(cloud.size(), 2U);
+        EXPECT_EQ(cloud.positions[1], Eigen::Vector3f(4, 5, 6));
+        EXPECT_EQ(cloud.colors[1], (std::array<std::uint8_t, 3>{11, 21, 31}));
+        for (std::size_t size = 1; size < bytes.size(); ++size) {
+            test::write_bytes(folder / "a.npy", bytes.substr(0, size));
+            EXPECT_THROW(read_scan(folder / "a.npy"), IoError);
+        }
+    }
+}
+
+TEST(NpyPoints, RefusesOtherShapesAndTypes) {
+    const test::TemporaryFolder folder;
+    for (const char* dictionary :
+         {"{'descr': '<f4', 'fortran_order': False, 'shape': (2, 2), }\n",
+          "{'descr': '<f4', 'fortran_order': False, 'shape': (2,), }\n",
+          "{'descr': '<f4', 'fortran_order': False, 'shape': (4000000000, 3), }\n",
+          "{'descr': '<f4', 'fortran_order': False, 'shape': (18446744073709551615, 3), }\n",
+          "{'descr': '<i4', 'fortran_order': False, 'shape': (2, 3), }\n"}) {
+        test::write_bytes(folder / "a.npy", npy_file(dictionary, std::string(24, '\0')));
+        EXPECT_THROW(read_scan(folder / "a.npy"), IoError) << dictionary;
+    }
 }
 
 }  // namespace

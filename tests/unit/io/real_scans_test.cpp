@@ -23,7 +23,7 @@ TEST(RealScans, EveryFileIsRead) {
             continue;
         }
         SCOPED_TRACE(entry.path());
-        const FileSummary summary = summarize_file(entry.path());
+        const FileSummary summary = summarize_file(entry.path()).front();
         EXPECT_GT(summary.num_points, 1000U);
         EXPECT_FALSE(summary.bounds.isEmpty());
         EXPECT_TRUE(summary.warnings.empty());
