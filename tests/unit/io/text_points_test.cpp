@@ -134,7 +134,8 @@ TEST(TextPoints, RefusesWhatDoesNotFit) {
           Bad{"1 2 3\n4 5\n", "line 2", "'4 5' is not 3 numbers"},
           Bad{"1 2 3\n\n4 5 6 7\n", "line 3", "not 3 numbers"},
           Bad{"1 2 3\n4 5 six\n", "line 2", "six"}, Bad{"1,5;2,5;3,5\n", "line 1", "neither"},
-          Bad{"2\n1.00000 2 3\n", "byte", "1 of 2"}, Bad{"99999999999\n1 2 3\n", "line 1", "99999999999"},
+          Bad{"2\n1.00000 2 3\n", "byte", "1 of 2"},
+          Bad{"99999999999\n1 2 3\n", "line 1", "99999999999"},
           Bad{"4000000000\n1 2 3\n", "line 1", "do not fit"},
           Bad{"1\n1 2 3\n4 5 6\n", "line 3", "more lines"}}) {
         const std::string message = error_of("a.xyz", bad.text);
