@@ -18,7 +18,7 @@ struct ProgramResult {
 };
 
 struct ProgramOptions {
-    std::chrono::seconds timeout{60};
+    std::chrono::seconds timeout{180};
     /// Sends SIGINT as soon as the program has written something to stderr.
     bool interrupt_at_first_message = false;
 };
