@@ -18,15 +18,16 @@ namespace roomscribe {
 
 // The format is told by the extension, in upper or lower case. What each one carries:
 //
-//               read                              write                     besides the positions
-//   .pcd        ascii, binary, binary_compressed  the same                  all (1)
-//   .ply        ascii, binary little/big endian   the same                  all (2)
-//   .3d         3DTK's UOS text                   the same                  intensity (3)
-//   .e57        all scans, every coding of numbers  one scan                all but the sensor pose
-//   (6) .las        1.0 to 1.4, point formats 0-10    1.4, formats 6 and 7      all (4) .ptx all
-//   scans of the file             no                        intensity, colours, grid .pts .xyz .txt
-//   .asc .csv   ascii, guessed     .xyz .txt .asc .csv       all but grid and pose (5) .vtk legacy
-//   points, ascii and binary   no                        nothing
+//           read                                 write                  besides the positions
+//   .pcd    ascii, binary, binary_compressed     the same               all (1)
+//   .ply    ascii, binary little/big endian      the same               all (2)
+//   .3d     3DTK's UOS text                      the same               intensity (3)
+//   .e57    all scans, every coding of numbers   one scan               all but sensor pose (4)
+//   .las    1.0 to 1.4, point formats 0 to 10    1.4, formats 6 and 7   all (5)
+//   .ptx    all scans of the file                no                     intensity, colours, grid
+//   .xyz .txt .asc .csv .pts   guessed columns   all but .pts           all but grid, pose (6)
+//   .npy    N x 3 to 6, guessed columns          no                     as text
+//   .vtk    legacy points, ascii and binary      no                     nothing
 //
 // "All" are normals, colours, intensities, the scan grid, the sensor pose, and any other property
 // as a channel under its own name and type. Conversions between PCD and PLY keep all of them.
@@ -36,9 +37,9 @@ namespace roomscribe {
 //     `num_cols`. List properties and other elements (faces) are dropped. A channel of n values
 //     per point is written as n properties name_0, name_1, ...; a 64-bit integer as double.
 // (3) Centimetres, left-handed, y up in the file; see uos.hpp.
-// (4) No grid, no pose, and no points without coordinates; see las.hpp.
-// (5) See text_points.hpp.
-// (6) See e57.hpp.
+// (4) See e57.hpp.
+// (5) No grid, no pose, and no points without coordinates; see las.hpp.
+// (6) See text_points.hpp.
 //
 // `x y z` may be of any type. `nx ny nz` or `normal_x normal_y normal_z` of a floating type are the
 // normals; `red green blue` of uchar, or a packed 4-byte `rgb` or `rgba`, the colours (alpha is
