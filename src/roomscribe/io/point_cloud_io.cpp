@@ -12,6 +12,7 @@
 #include "roomscribe/io/byte_reader.hpp"
 #include "roomscribe/io/e57.hpp"
 #include "roomscribe/io/file_contents.hpp"
+#include "roomscribe/io/global_shift.hpp"
 #include "roomscribe/io/las.hpp"
 #include "roomscribe/io/npy.hpp"
 #include "roomscribe/io/pcd.hpp"
@@ -26,10 +27,6 @@ namespace {
 
 /// Half the points of an indoor place lie nearer to its middle than this, in metres.
 constexpr double largest_median_distance = 100.0;
-
-/// As PointDecoder does with far coordinates.
-constexpr double largest_near_coordinate = 1000.0;
-constexpr double shift_step = 100.0;
 
 bool is_text_extension(std::string_view extension) {
     return extension == ".xyz" || extension == ".txt" || extension == ".asc" || extension == ".csv";
@@ -67,17 +64,6 @@ std::vector<FileContents> read_contents(const std::filesystem::path& path, const
     throw IoError(file.path(), "", {}, fmt::format("the extension '{}' is unknown", extension),
                   "give a .pcd, .ply, .e57, .las, .ptx, .pts, .xyz, .txt, .asc, .csv, .npy, .3d or "
                   ".vtk file");
-}
-
-/// The part of far coordinates that a map is kept without, in steps as for clouds.
-Eigen::Vector3d choose_map_shift(const Eigen::Vector3d& place) {
-    Eigen::Vector3d shift = Eigen::Vector3d::Zero();
-    for (Eigen::Index k = 0; k < 3; ++k) {
-        if (std::abs(place[k]) > largest_near_coordinate) {
-            shift[k] = std::round(place[k] / shift_step) * shift_step;
-        }
-    }
-    return shift;
 }
 
 /// "hall.e57#2", or with the scan's own name.
@@ -162,7 +148,7 @@ std::vector<StoredScan> read_scans(const std::filesystem::path& path, const Cont
         if (stored.map_from_scan) {
             Transform& pose = *stored.map_from_scan;
             pose.translation() += pose.linear() * stored.scan.cloud.global_shift;
-            if (!shift) shift = choose_map_shift(pose.translation());
+            if (!shift) shift = pose.translation().unaryExpr(&global_shift_of);
             pose.translation() -= *shift;
         }
         scans.push_back(std::move(stored));

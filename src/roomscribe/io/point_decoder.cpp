@@ -10,6 +10,7 @@
 
 #include "roomscribe/core/parallel.hpp"
 #include "roomscribe/io/byte_reader.hpp"
+#include "roomscribe/io/global_shift.hpp"
 #include "roomscribe/io/scalar_dispatch.hpp"
 #include "roomscribe/io/strided_copy.hpp"
 
@@ -33,9 +34,6 @@ namespace {
 
 /// Records of so many points stay in the cache while one field after another is taken from them.
 constexpr std::size_t points_per_chunk = 1U << 12U;
-/// float32 holds 0.06 mm up to here.
-constexpr double largest_near_coordinate = 1000.0;
-constexpr double shift_step = 100.0;
 /// No map grid reaches further: a coordinate beyond is rubbish that must not decide the shift.
 constexpr double largest_map_coordinate = 1e8;
 
@@ -206,12 +204,9 @@ void PointDecoder::choose_global_shift(const SourceRun& run) {
         if (!(point.cwiseAbs().maxCoeff() < largest_map_coordinate)) continue;
         shift_known_ = true;
         for (std::size_t k = 0; k < 3; ++k) {
-            const double value = point[static_cast<Eigen::Index>(k)];
-            const bool far = std::abs(value) > largest_near_coordinate;
-            if (far && is_wide(fields_[position_.fields[k]].type)) {
-                cloud_.global_shift[static_cast<Eigen::Index>(k)] =
-                    std::round(value / shift_step) * shift_step;
-            }
+            if (!is_wide(fields_[position_.fields[k]].type)) continue;
+            const auto axis = static_cast<Eigen::Index>(k);
+            cloud_.global_shift[axis] = global_shift_of(point[axis]);
         }
     }
 }

@@ -134,13 +134,6 @@ std::string error_of(const std::string& bytes) {
     return "it was read";
 }
 
-const Channel* find_channel(const PointCloud& cloud, const std::string& name) {
-    for (const Channel& channel : cloud.channels) {
-        if (channel.name == name) return &channel;
-    }
-    return nullptr;
-}
-
 TEST(E57, ChecksumIsCastagnolis) {
     EXPECT_EQ(crc32c(bytes_of("123456789")), 0xe3069283U);
     EXPECT_EQ(crc32c(bytes_of(std::string(32, '\0'))), 0x8a9136aaU);
@@ -183,7 +176,7 @@ TEST(E57, ReadsPackedIntegersAcrossPackets) {
     EXPECT_THAT(cloud.colors, ElementsAre(ElementsAre(1, 0, 0), ElementsAre(128, 255, 255),
                                           ElementsAre(255, 1, 51)));
     EXPECT_THAT(cloud.intensities, ElementsAre(0.25F, 1e9F, -3.0F));
-    const Channel* channel = find_channel(cloud, "ring");
+    const Channel* channel = test::find_channel(cloud, "ring");
     ASSERT_NE(channel, nullptr);
     EXPECT_EQ(channel->type, ScalarType::uint16);
     EXPECT_EQ(static_cast<int>(channel->values[4]), 200);
@@ -368,7 +361,7 @@ TEST(E57, RoundTripKeepsAllBits) {
         EXPECT_TRUE(test::same_bits(back.colors, cloud.colors));
         EXPECT_TRUE(test::same_bits(back.intensities, cloud.intensities));
         for (const Channel& channel : cloud.channels) {
-            const Channel* same = find_channel(back, channel.name);
+            const Channel* same = test::find_channel(back, channel.name);
             ASSERT_NE(same, nullptr) << channel.name;
             EXPECT_EQ(same->type, channel.type);
             EXPECT_TRUE(test::same_bits(same->values, channel.values)) << channel.name;

@@ -8,6 +8,7 @@
 #include <limits>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "roomscribe/core/random.hpp"
@@ -24,6 +25,13 @@ inline void write_bytes(const std::filesystem::path& path, std::string_view byte
 inline std::string read_bytes(const std::filesystem::path& path) {
     std::ifstream file(path, std::ios::binary);
     return {std::istreambuf_iterator<char>(file), {}};
+}
+
+inline const Channel* find_channel(const PointCloud& cloud, std::string_view name) {
+    for (const Channel& channel : cloud.channels) {
+        if (channel.name == name) return &channel;
+    }
+    return nullptr;
 }
 
 inline float random_float(Random& random) {

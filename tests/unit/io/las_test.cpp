@@ -83,13 +83,6 @@ std::string error_of(const std::string& bytes, const std::string& name = "a.las"
     return "it was read";
 }
 
-const Channel* find_channel(const PointCloud& cloud, const std::string& name) {
-    for (const Channel& channel : cloud.channels) {
-        if (channel.name == name) return &channel;
-    }
-    return nullptr;
-}
-
 TEST(Las, ReadsEveryPointFormatOfEveryVersion) {
     for (unsigned format = 0; format <= 10; ++format) {
         for (const unsigned minor : {2U, 3U, 4U}) {
@@ -101,7 +94,7 @@ TEST(Las, ReadsEveryPointFormatOfEveryVersion) {
             EXPECT_EQ(cloud.positions[0], Eigen::Vector3f(1.234F, -2.0F, 3.5F));
             EXPECT_EQ(cloud.positions[1], Eigen::Vector3f(0.0F, 0.0F, -0.001F));
             EXPECT_EQ(cloud.intensities, (std::vector<float>{65535.0F, 7.0F}));
-            const Channel* classes = find_channel(cloud, "classification");
+            const Channel* classes = test::find_channel(cloud, "classification");
             ASSERT_NE(classes, nullptr);
             EXPECT_EQ(static_cast<int>(classes->values[1]), format < 6 ? 6 : 200);
             ASSERT_EQ(cloud.colors.size(), color_places[format] > 0 ? 2U : 0U);
@@ -215,7 +208,7 @@ TEST(Las, RoundTripKeepsAllThatTheFormatCarries) {
         // Normals are three extra bytes by PLY's names, which are normals again.
         EXPECT_TRUE(test::same_bits(back.normals, kept.normals));
         for (const Channel& channel : kept.channels) {
-            const Channel* same = find_channel(back, channel.name);
+            const Channel* same = test::find_channel(back, channel.name);
             if (same == nullptr) {
                 EXPECT_THAT(channel.values, testing::Each(std::byte{0})) << channel.name;
                 continue;
