@@ -4,32 +4,36 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <vector>
 
 #include "roomscribe/core/units.hpp"
 
 namespace roomscribe {
 
-UsualUp usual_up(std::span<const Eigen::Vector3f> positions) {
+UsualUp usual_up(std::span<const Eigen::Vector3f> positions, const Eigen::Vector3d& sensor,
+                 const Eigen::Matrix3d& axes) {
+    constexpr std::size_t enough = 5000;
+    const Eigen::Vector3f origin = sensor.cast<float>();
+    std::vector<Eigen::Vector3f> directions;
+    for (std::size_t i = 0; i < positions.size(); i += 1 + positions.size() / enough) {
+        if (positions[i].allFinite()) directions.push_back((positions[i] - origin).normalized());
+    }
     struct CameraFrame {
-        Eigen::Vector3f view;
+        Eigen::Vector3d view;
         Eigen::Vector3d up;
     };
-    const std::array<CameraFrame, 3> frames{
-        CameraFrame{Eigen::Vector3f::UnitZ(), -Eigen::Vector3d::UnitY()},
-        CameraFrame{-Eigen::Vector3f::UnitZ(), Eigen::Vector3d::UnitY()},
-        CameraFrame{Eigen::Vector3f::UnitX(), Eigen::Vector3d::UnitZ()}};
+    const std::array<CameraFrame, 3> frames{CameraFrame{axes.col(2), -axes.col(1)},
+                                            CameraFrame{-axes.col(2), axes.col(1)},
+                                            CameraFrame{axes.col(0), axes.col(2)}};
     const auto min_cosine = static_cast<float>(std::cos(radians(60.0)));
     for (const CameraFrame& frame : frames) {
-        std::size_t num_points = 0;
+        const Eigen::Vector3f view = frame.view.cast<float>();
         const bool sees_all =
-            std::all_of(positions.begin(), positions.end(), [&](const Eigen::Vector3f& point) {
-                if (!point.allFinite()) return true;
-                ++num_points;
-                return point.dot(frame.view) >= min_cosine * point.norm();
-            });
-        if (sees_all && num_points > 0) return {frame.up, true};
+            std::all_of(directions.begin(), directions.end(),
+                        [&](const Eigen::Vector3f& ray) { return ray.dot(view) >= min_cosine; });
+        if (sees_all && !directions.empty()) return {frame.up, true};
     }
-    return {};
+    return {axes.col(2), false};
 }
 
 Eigen::Vector3d common_up(std::span<const UsualUp> ups) {

@@ -14,12 +14,15 @@ struct UsualUp {
     bool is_camera = false;
 };
 
-/// That of a scanner in its own frame. A frame of a robot, a tripod or a vehicle has z up and looks
-/// along x (ROS REP 103); that of a camera looks along z and has y down (REP 103, "optical"), or
-/// along -z and has y up (OpenGL, and what PCL writes for Kinects). A camera is told by its field
-/// of view: all points lie within 60 degrees of the way it looks, half of what the widest depth
-/// cameras see. `positions` are in the scanner's frame; those that are not finite do not count.
-UsualUp usual_up(std::span<const Eigen::Vector3f> positions);
+/// That of a scanner at `sensor` whose axes are the columns of `axes`, in the frame of these and of
+/// `positions`. A robot, a tripod or a vehicle has z up and looks along x (ROS REP 103); a camera
+/// looks along z and has y down (REP 103, "optical"), or along -z and has y up (OpenGL, and what
+/// PCL writes for Kinects). A camera is told by its field of view: all points lie within 60 degrees
+/// of the way it looks, half of what the widest depth cameras see. Points that are not finite do
+/// not count; of many some thousand are looked at.
+UsualUp usual_up(std::span<const Eigen::Vector3f> positions,
+                 const Eigen::Vector3d& sensor = Eigen::Vector3d::Zero(),
+                 const Eigen::Matrix3d& axes = Eigen::Matrix3d::Identity());
 
 /// What those of all scanners of a map, in its frame, say together. The length says how much they
 /// are to be trusted: 1 for cameras, whose frames are told by what they see; 0.5 for other scanners

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 
 #include "roomscribe/core/quantile.hpp"
 #include "roomscribe/geometry/search_tree.hpp"
@@ -38,16 +39,9 @@ Eigen::Vector3d find_usual_up(const ScanMap& map) {
     std::vector<UsualUp> ups;
     for (const MapSection& section : map.sections) {
         if (!section.sensor_position || !section.sensor_axes) continue;
-        const Eigen::Matrix3f sensor_from_map = section.sensor_axes->transpose().cast<float>();
-        const Eigen::Vector3f sensor = section.sensor_position->cast<float>();
-        std::vector<Eigen::Vector3f> in_sensor;
-        // Some thousand rays show where a scanner looks.
-        const std::uint32_t stride = 1 + section.count / 5000;
-        for (std::uint32_t i = section.first; i < section.first + section.count; i += stride)
-            in_sensor.emplace_back(sensor_from_map * (map.cloud.positions[i] - sensor));
-        UsualUp usual = usual_up(in_sensor);
-        usual.up = *section.sensor_axes * usual.up;
-        ups.push_back(usual);
+        const std::span positions =
+            std::span(map.cloud.positions).subspan(section.first, section.count);
+        ups.push_back(usual_up(positions, *section.sensor_position, *section.sensor_axes));
     }
     return common_up(ups);
 }

@@ -134,18 +134,6 @@ ScanFeatures describe_scan(const Scan& scan, const SurfaceView& surface,
     return described;
 }
 
-UsualUp usual_up_of(const Scan& scan) {
-    const Eigen::Matrix3f sensor_from_scan = scan.sensor_axes().transpose().cast<float>();
-    const Eigen::Vector3f sensor = scan.sensor_position().cast<float>();
-    std::vector<Eigen::Vector3f> in_sensor;
-    // Some thousand rays show where a scanner looks.
-    for (std::size_t i = 0; i < scan.cloud.size(); i += 1 + scan.cloud.size() / 5000)
-        in_sensor.emplace_back(sensor_from_scan * (scan.cloud.positions[i] - sensor));
-    UsualUp usual = usual_up(in_sensor);
-    usual.up = scan.sensor_axes() * usual.up;
-    return usual;
-}
-
 }  // namespace
 
 RegistrationScale joint_scale(const PreparedScan& a, const PreparedScan& b) {
@@ -195,7 +183,7 @@ PreparedScan prepare_scan(const Scan& scan, const RegistrationScale& scale, Pair
             free_space_is_valid,
             std::move(coarse_grid),
             std::move(directions),
-            usual_up_of(scan)};
+            usual_up(scan.cloud.positions, sensor_position, scan.sensor_axes())};
 }
 
 }  // namespace roomscribe
