@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include "roomscribe/geometry/polygon.hpp"
 #include "roomscribe/report/cloud_picture.hpp"
 #include "roomscribe/report/html_text.hpp"
 #include "roomscribe/report/png_image.hpp"
@@ -250,13 +251,7 @@ Eigen::Vector3d front_of(std::span<const Component> parts, const Eigen::Vector3d
     Eigen::Vector3d front = Eigen::Vector3d::Zero();
     for (const Component& part : parts) {
         if (part.grasp) front -= fixture_area * part.grasp->approach;
-        if (part.polygon.size() < 3) continue;
-        Eigen::Vector3d area = Eigen::Vector3d::Zero();
-        for (std::size_t i = 2; i < part.polygon.size(); ++i) {
-            area +=
-                0.5 *
-                (part.polygon[i - 1] - part.polygon[0]).cross(part.polygon[i] - part.polygon[0]);
-        }
+        const Eigen::Vector3d area = area_vector(part.polygon);
         if (std::abs(area.dot(up)) < 0.5 * area.norm()) front += area;
     }
     front -= front.dot(up) * up;
@@ -286,6 +281,51 @@ RoomView piece_view(const OrientedBox& box, const Eigen::Vector3d& front, const 
     view.view.high = 2.0 * half + Eigen::Vector3d::Constant(piece_margin);
     view.view.width = width;
     return view;
+}
+
+/// A piece, as it is seen from its front.
+struct PiecePicture {
+    Scene alone;  ///< the piece, then its parts
+    RoomView view;
+    std::vector<Eigen::Vector3f> points;  ///< in the view's box
+    std::vector<std::size_t> numbers;     ///< of these in the map
+};
+
+/// Deals the map's points out to the pictures that show them.
+void take_points(const PointCloud& map, std::span<PiecePicture> pictures) {
+    for (std::size_t i = 0; i < map.size(); ++i) {
+        for (PiecePicture& picture : pictures) {
+            const CloudView& view = picture.view.view;
+            const Eigen::Array3d place = view.view_from_cloud * map.positions[i].cast<double>();
+            if (!(place >= view.low.array()).all() || !(place <= view.high.array()).all()) continue;
+            picture.points.push_back(map.positions[i]);
+            picture.numbers.push_back(i);
+        }
+    }
+}
+
+std::string piece_figure(const PiecePicture& picture, std::span<const Label> labels,
+                         const Context& context) {
+    const std::vector<Component>& parts = picture.alone.components;
+    const auto color = [&](std::size_t point) {
+        return opaque(label_color(labels[picture.numbers[point]]));
+    };
+    const Image image =
+        draw_cloud(picture.points, color, picture.view.view, PictureStyle::surface, context);
+    const auto num_fixtures = std::count_if(parts.begin(), parts.end(), [](const Component& part) {
+        return part.label == Label::handle;
+    });
+    const std::string name = escape_html(parts[0].id);
+    const std::string kind = escape_html(in_words(parts[0].kind));
+    const Eigen::Vector3d extent = picture.view.view.high - picture.view.view.low;
+    return figure(
+        picture.view, image,
+        {name,
+         fmt::format("{}{:.2f} &#215; {:.2f} m, {}", kind.empty() ? kind : kind + ", ",
+                     extent.x() - 2.0 * piece_margin, extent.y() - 2.0 * piece_margin,
+                     counted(static_cast<std::size_t>(num_fixtures), "handle")),
+         fmt::format("{} from its front with the outlines of its faces and handles", name)},
+        component_shapes(picture.alone, picture.view.view), "", "");
 }
 
 }  // namespace
@@ -362,35 +402,22 @@ std::string furniture_figures(const Reconstruction& reconstruction, const Contex
     std::stable_sort(pieces.begin(), pieces.end(), [](const Component* a, const Component* b) {
         return a->box->size.prod() > b->box->size.prod();
     });
-    std::string html;
-    std::size_t num_drawn = 0;
+    std::vector<PiecePicture> pictures;
     for (const Component* piece : pieces) {
-        Scene alone;
-        alone.room_from_map = scene.room_from_map;
-        alone.components = piece_with_parts(scene, *piece);
-        const Eigen::Vector3d front = front_of(alone.components, up);
+        if (pictures.size() == max_pieces) break;
+        PiecePicture picture;
+        picture.alone.room_from_map = scene.room_from_map;
+        picture.alone.components = piece_with_parts(scene, *piece);
+        const Eigen::Vector3d front = front_of(picture.alone.components, up);
         if (front.isZero()) continue;
-        const RoomView view = piece_view(*piece->box, front, up, picture_width);
-        if ((view.view.high - view.view.low).head<2>().minCoeff() < min_extent) continue;
-        const Image image =
-            draw_cloud(reconstruction.map.cloud.positions, color_by_label(reconstruction, true),
-                       view.view, PictureStyle::surface, context);
-        const auto num_fixtures =
-            std::count_if(alone.components.begin(), alone.components.end(),
-                          [](const Component& part) { return part.label == Label::handle; });
-        const std::string name = escape_html(piece->id);
-        const std::string kind = escape_html(in_words(piece->kind));
-        const Eigen::Vector3d extent = view.view.high - view.view.low;
-        html += figure(
-            view, image,
-            {name,
-             fmt::format("{}{:.2f} &#215; {:.2f} m, {}", kind.empty() ? kind : kind + ", ",
-                         extent.x() - 2.0 * piece_margin, extent.y() - 2.0 * piece_margin,
-                         counted(static_cast<std::size_t>(num_fixtures), "handle")),
-             fmt::format("{} from its front with the outlines of its faces and handles", name)},
-            component_shapes(alone, view.view), "", "");
-        if (++num_drawn == max_pieces) break;
+        picture.view = piece_view(*piece->box, front, up, picture_width);
+        const Eigen::Vector3d extent = picture.view.view.high - picture.view.view.low;
+        if (extent.head<2>().minCoeff() >= min_extent) pictures.push_back(std::move(picture));
     }
+    take_points(reconstruction.map.cloud, pictures);
+    std::string html;
+    for (const PiecePicture& picture : pictures)
+        html += piece_figure(picture, reconstruction.labels.labels, context);
     return html.empty() ? html : "<div class=\"pieces\">\n" + html + "</div>\n";
 }
 
