@@ -46,7 +46,7 @@ Eigen::Vector3d common_up(std::span<const UsualUp> ups) {
     }
     // Of unit vectors that are each 30 degrees off their mean.
     if (mean.norm() < std::cos(radians(30.0))) return Eigen::Vector3d::Zero();
-    const double trust = are_cameras ? 1.0 : ups.size() > 1 ? 0.5 : 0.25;
+    const double trust = are_cameras ? 1.0 : ups.size() > 1 ? 0.2 : 0.1;
     return trust * mean.normalized();
 }
 

@@ -25,9 +25,10 @@ UsualUp usual_up(std::span<const Eigen::Vector3f> positions,
                  const Eigen::Matrix3d& axes = Eigen::Matrix3d::Identity());
 
 /// What those of all scanners of a map, in its frame, say together. The length says how much they
-/// are to be trusted: 1 for cameras, whose frames are told by what they see; 0.5 for other scanners
-/// that agree, as those do that are mounted alike and carried upright; 0.25 for a single one, since
-/// nothing confirms it; 0 where they disagree by more than 30 degrees or so, or there is none.
+/// are to be trusted: 1 for cameras, whose frames are told by what they see and which see little;
+/// 0.2 for other scanners that agree, as those do that are mounted alike, be it upside down; 0.1
+/// for a single one, since nothing confirms it; 0 where they disagree by more than 30 degrees or
+/// so, or there is none.
 Eigen::Vector3d common_up(std::span<const UsualUp> ups);
 
 }  // namespace roomscribe

@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "roomscribe/core/random.hpp"
+#include "roomscribe/core/units.hpp"
 #include "support/shapes.hpp"
 #include "support/simulated_rooms.hpp"
 
@@ -70,6 +71,24 @@ TEST_F(TwoBuildings, HaveLabelsForEveryPointInTheFirst) {
     for (std::uint32_t i = section.first; i < section.first + section.count; ++i)
         ASSERT_EQ(result_->labels.instances[i], -1);
 }
+
+/// Scans of a furnished room by a scanner that lies on its side or hangs upside down, always alike.
+class MountedOtherwise : public testing::TestWithParam<double> {};
+
+TEST_P(MountedOtherwise, DoesNotMakeAWallTheFloor) {
+    const Eigen::AngleAxisd mount(GetParam(), Eigen::Vector3d::UnitX());
+    std::vector<Scan> scans = test::scan_furnished_room(4);
+    for (Scan& scan : scans) {
+        for (Eigen::Vector3f& point : scan.cloud.positions)
+            point = mount.cast<float>() * point;
+    }
+    const Reconstruction result = reconstruct(scans);
+    const Eigen::Vector3d up = result.scene.room_from_map.linear().row(2).transpose();
+    EXPECT_GT(up.dot(mount * Eigen::Vector3d::UnitZ()), 0.99);
+}
+
+INSTANTIATE_TEST_SUITE_P(Turned, MountedOtherwise,
+                         testing::Values(0.0, radians(90.0), radians(180.0)));
 
 /// A rectangle of points, 1 cm apart, from a corner along two edges, with 2 mm of noise.
 void add_rectangle(Scan& scan, const Eigen::Vector3d& corner, const Eigen::Vector3d& first,

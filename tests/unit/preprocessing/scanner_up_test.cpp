@@ -60,13 +60,13 @@ Vector3d leaning(double degrees_off) {
 
 TEST(CommonUp, IsTheMeanOfThoseThatAgree) {
     const std::vector<UsualUp> scanners{{leaning(20.0), false}, {leaning(-20.0), false}};
-    EXPECT_LT((common_up(scanners) - Vector3d(0, 0, 0.5)).norm(), 1e-12);
+    EXPECT_LT((common_up(scanners) - Vector3d(0, 0, 0.2)).norm(), 1e-12);
     const std::vector<UsualUp> cameras{{leaning(20.0), true}, {leaning(-20.0), true}};
     EXPECT_LT((common_up(cameras) - Vector3d::UnitZ()).norm(), 1e-12);
 }
 
 TEST(CommonUp, TrustsALoneScannerLittleAndThoseThatDisagreeNotAtAll) {
-    EXPECT_NEAR(common_up(std::vector<UsualUp>{{leaning(10.0), false}}).norm(), 0.25, 1e-12);
+    EXPECT_NEAR(common_up(std::vector<UsualUp>{{leaning(10.0), false}}).norm(), 0.1, 1e-12);
     EXPECT_NEAR(common_up(std::vector<UsualUp>{{leaning(10.0), true}}).norm(), 1.0, 1e-12);
     EXPECT_TRUE(
         common_up(std::vector<UsualUp>{{leaning(0.0), true}, {leaning(90.0), true}}).isZero());

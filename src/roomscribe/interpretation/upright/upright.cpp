@@ -39,7 +39,8 @@ constexpr double seat_area = 0.2;
 /// more than what tells its two directions apart, since cupboards and clutter before a wall look
 /// much like tables and clutter on a floor. Among the latter, clutter is the most dependable;
 /// furniture and doors are told by size alone and only break ties. The mount of a
-/// camera outweighs a lone wall, which has few levels, and yields to a room seen whole.
+/// camera outweighs a lone wall, which has few levels. That of other scanners breaks ties: without
+/// it the right direction of scans and maps of lidars leads by 0.6 and 1.0 or more (docs).
 constexpr std::array<double, num_upright_evidence> evidence_weights{4.0, 3.0, 1.5, 0.25, 0.5, 2.0,
                                                                     1.0, 1.0, 1.0, 1.5,  4.0};
 
