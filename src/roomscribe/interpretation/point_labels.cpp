@@ -195,6 +195,8 @@ class OpeningTest {
             // The lining lies along the sides, before and behind the leaf.
             const bool is_at_side = std::min({along - leaf_.start, leaf_.end - along,
                                               leaf_.top - above}) < lining_width;
+            // What stands in a passage is no part of it.
+            if (opening_.type == OpeningType::passage && !is_at_side) return std::nullopt;
             const bool is_leaf = std::abs(depth - leaf_depth) <= leaf_reach;
             return opening_.components[is_at_side && (opening_.is_open || !is_leaf) ? 1 : 0];
         }

@@ -28,8 +28,10 @@ class ComponentBuilder {
         const auto push = [&](Label label, const WallRectangle& rectangle, double depth) {
             Component component;
             component.label = label;
-            component.id =
-                fmt::format("{}-{}", label_name(label), ++counts_[static_cast<std::size_t>(label)]);
+            const bool is_passage = label == Label::unknown;
+            if (is_passage) component.kind = "opening";
+            component.id = fmt::format("{}-{}", is_passage ? component.kind : label_name(label),
+                                       ++counts_[static_cast<std::size_t>(label)]);
             component.instance = next_instance_++;
             component.parent = wall;
             const Vector3d on_plane = (face.plane.offset - depth) * face.plane.normal;
@@ -56,7 +58,8 @@ class ComponentBuilder {
                 push(Label::window_frame, hole, opening.frame_depth);
                 break;
             case OpeningType::door:
-                push(Label::door, hole, opening.depth);
+            case OpeningType::passage:
+                push(opening.type == OpeningType::door ? Label::door : Label::unknown, hole, opening.depth);
                 push(Label::door_frame, hole.grown(width, 0.0, width), casing_width);
                 connect(opening, layout, components[opening.components[0]].id);
                 break;

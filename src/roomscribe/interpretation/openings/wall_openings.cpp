@@ -30,6 +30,8 @@ constexpr double max_door_width = 2.3;
 constexpr double min_door_height = 1.8;
 constexpr double max_door_height = 2.5;
 constexpr double max_leaf_width = 1.3;
+/// m. The widest single leaf of DIN 18101; the hole in its frame is no wider.
+constexpr double widest_usual_leaf = 1.11;
 /// m. Thresholds, skirtings and what lies on the floor.
 constexpr double floor_reach = 0.25;
 /// Confidence of a hole like a window's without a sign of glass, until drop_niches().
@@ -299,10 +301,14 @@ std::optional<WallOpening> OpeningFinder::judge(std::size_t storey, std::size_t 
         opening.rule = "hole of a door's size in the wall and its open leaf";
         opening.confidence = 0.85;
         if (opening.leaf_patches.empty()) {
-            opening.rule = "hole of a door's size in the wall, on the floor";
-            opening.alternative = "passage without a leaf";
-            // Double doors are rarer than single ones.
-            opening.confidence = hole.width() > max_leaf_width ? 0.5 : 0.6;
+            // Double doors are rarer than wide passages, and show a leaf more easily.
+            const bool is_wide = hole.width() > widest_usual_leaf;
+            opening.type = is_wide ? OpeningType::passage : OpeningType::door;
+            opening.rule = is_wide ? "hole in the wall down to the floor, wider than a leaf"
+                                   : "hole of a door's size in the wall, on the floor";
+            opening.alternative =
+                is_wide ? "double door whose leaves were not seen" : "passage without a leaf";
+            opening.confidence = 0.6;
         }
         return opening;
     }

@@ -18,7 +18,11 @@ namespace roomscribe {
 /// m. Architraves are 44 to 95 mm wide.
 inline constexpr double casing_width = 0.06;
 
-enum class OpeningType : std::uint8_t { door, window };
+enum class OpeningType : std::uint8_t {
+    door,
+    window,
+    passage,  ///< a way without a leaf: a component of kind `opening`
+};
 
 /// A hole in a wall, and what fills it.
 struct WallOpening {
@@ -39,7 +43,7 @@ struct WallOpening {
     double confidence = 0.0;
     std::string_view rule;         ///< that it was told by, in words
     std::string_view alternative;  ///< the rival reading; not empty if doubtful
-    /// Numbers of its components in Openings::components; door and window first.
+    /// Numbers of its components in Openings::components; door, window and passage first.
     std::vector<std::size_t> components;
 };
 
@@ -53,8 +57,8 @@ struct Openings {
 /// up) and beyond it.
 ///
 /// Each wall's face is looked at cell by cell (measure_wall_relief). A hole (find_wall_holes) at
-/// the floor as high as a door is a door, closed where a leaf fills it, doubtful where no leaf was
-/// seen: passages have none. A hole above the floor that shows signs of glass, or is like one that
+/// the floor as high as a door is a door, closed where a leaf fills it. Where no leaf was seen, it
+/// is a passage if wider than any single leaf, and a doubtful door if not. A hole above the floor that shows signs of glass, or is like one that
 /// does, is a window, but for mirrors, which `rays` tell (MirrorTest). Closed leaves nearly in the
 /// plane of their wall are found by find_flat_doors. What opens to both sides of a wall is one
 /// opening. Instances are counted on from `surfaces`, whose rooms learn their neighbours and whose
