@@ -46,6 +46,9 @@ std::uint64_t slices_between(double low, double high) {
     return mask;
 }
 
+/// At the height of people.
+const std::uint64_t body_slices = slices_between(0.5, 1.8);
+
 double share_of(std::uint64_t slices, std::uint64_t wanted) {
     // The lines of a scanner may lie further apart than a slice is high.
     const std::uint64_t filled = slices | (slices << 1U) | (slices >> 1U);
@@ -97,11 +100,14 @@ class PlanDrawer {
     void trace_rays();
     double blind_radius(std::span<const Ray> rays) const;
     void mark_blind();
+    template <typename PlaceOf>
+    bool is_beam(std::span<const std::uint64_t> slices, const PlaceOf& place_of) const;
     void draw_barrier(const UprightSurface& surface);
     bool has_level_behind(const Vector2d& place, const Vector2d& normal) const;
     std::optional<double> ceiling_near(const Vector2d& place) const;
     std::vector<bool> find_inside() const;
     void flood_rooms(const std::vector<bool>& inside);
+    void flood(const std::vector<bool>& is_free);
     void join_under_beams();
     void choose_rooms();
     template <typename MayTake>
@@ -303,6 +309,29 @@ bool PlanDrawer::has_level_behind(const Vector2d& place, const Vector2d& normal)
                            [&](const Vector2d& behind) { return plan_.has_level_at(behind); });
 }
 
+/// Whether a surface, by what slices were seen in each step along it, is the face of a beam: long,
+/// nothing at the height of people anywhere, and the room goes on below.
+template <typename PlaceOf>
+bool PlanDrawer::is_beam(std::span<const std::uint64_t> slices, const PlaceOf& place_of) const {
+    constexpr double min_length = 1.1;  // m, corridors are wider, the lintels of doors are not
+    if (static_cast<double>(slices.size()) * plan_.cell_size() < min_length) return false;
+    constexpr std::uint32_t min_rays = 2;
+    constexpr double stray_share = 0.1;
+    constexpr double min_open_share = 0.5;
+    std::size_t num_solid = 0;
+    std::size_t num_open = 0;
+    for (std::size_t i = 0; i < slices.size(); ++i) {
+        num_solid += (slices[i] & body_slices) != 0 ? 1 : 0;
+        const auto cell = plan_.cell_at(place_of(static_cast<double>(i) + 0.5));
+        const bool is_open =
+            cell && (cells_[*cell].num_rays >= min_rays || cells_[*cell].has_floor);
+        num_open += is_open ? 1 : 0;
+    }
+    const auto count = static_cast<double>(slices.size());
+    return static_cast<double>(num_solid) <= stray_share * count &&
+           static_cast<double>(num_open) >= min_open_share * count;
+}
+
 /// Marks the cells on the surface's line along which it parts rooms.
 void PlanDrawer::draw_barrier(const UprightSurface& surface) {
     const double step = plan_.cell_size();
@@ -325,13 +354,13 @@ void PlanDrawer::draw_barrier(const UprightSurface& surface) {
                                (surface.start + position * step) * surface.along;
         return (room_from_map_ * point).head<2>();
     };
-    const std::uint64_t body = slices_between(0.5, 1.8);
     const Vector2d normal = (room_from_map_ * surface.plane.normal).head<2>();
     const auto closes = [&](double position) {
         const Vector2d place = place_of(position);
         return !has_level_behind(place, normal) ||
                (!sample_.normals_face_scanner && !has_level_behind(place, -normal));
     };
+    if (is_beam(slices, place_of)) return;
     const bool is_high = surface.top >= floor_ + settings_.min_closing_top;
     const bool is_tall = surface.height() >= settings_.min_wall_height && is_high;
     std::vector<bool> parts(count, false);
@@ -342,7 +371,7 @@ void PlanDrawer::draw_barrier(const UprightSurface& surface) {
         const bool has_lintel =
             ceiling &&
             (slices[i] & slices_between(top - settings_.ceiling_reach, top + slice_height)) != 0;
-        const bool is_body = !ceiling && is_high && share_of(slices[i], body) >= 0.6;
+        const bool is_body = !ceiling && is_high && share_of(slices[i], body_slices) >= 0.6;
         const bool is_last = is_tall && std::popcount(slices[i]) >= min_slices && closes(middle);
         parts[i] = has_lintel || is_body || is_last;
     }
@@ -364,7 +393,7 @@ void PlanDrawer::draw_barrier(const UprightSurface& surface) {
     };
     for (std::size_t i = 0; i < count; ++i) {
         if (!parts[i]) continue;
-        const bool is_solid = share_of(slices[i], body) >= 0.4;
+        const bool is_solid = share_of(slices[i], body_slices) >= 0.4;
         for (const double offset : {0.0, 0.25, 0.5, 0.75})
             draw(static_cast<double>(i) + offset, is_solid);
         // Corners are seen badly: an end reaches a little further.
@@ -398,34 +427,46 @@ std::vector<bool> PlanDrawer::find_inside() const {
     return inside;
 }
 
+/// Parts what is inside into rooms. Nobody goes from room to room along the strip that a wall's
+/// noise leaves on its far side: what touches a barrier is only taken afterwards, and strips that
+/// do so everywhere stay apart.
 void PlanDrawer::flood_rooms(const std::vector<bool>& inside) {
     plan_.room_of_cell.assign(cells_.size(), no_room);
-    std::int32_t num_rooms = 0;
-    std::vector<std::size_t> stack;
+    std::vector<bool> is_free = inside;
+    std::vector<bool> is_clear = inside;
+    for (std::size_t cell = 0; cell < cells_.size(); ++cell) {
+        if (!plan_.is_barrier[cell]) continue;
+        is_free[cell] = false;
+        for_each_neighbor(cell, 1, [&](std::size_t other) { is_clear[other] = false; });
+    }
+    flood(is_clear);
+    grow(plan_.cell_size(), [&](std::size_t cell) { return is_free[cell]; });
+    flood(is_free);
+}
+
+/// Makes a room of each connected set of cells that are in no room.
+void PlanDrawer::flood(const std::vector<bool>& is_free) {
     const auto width = static_cast<std::size_t>(plan_.width());
+    std::vector<std::size_t> stack;
     for (std::size_t seed = 0; seed < cells_.size(); ++seed) {
-        const auto is_free = [&](std::size_t cell) {
-            return inside[cell] && !plan_.is_barrier[cell] && plan_.room_of_cell[cell] == no_room;
+        const auto room = static_cast<std::int32_t>(plan_.rooms.size());
+        const auto take = [&](std::size_t cell) {
+            if (!is_free[cell] || plan_.room_of_cell[cell] != no_room) return;
+            plan_.room_of_cell[cell] = room;
+            stack.push_back(cell);
         };
-        if (!is_free(seed)) continue;
-        plan_.room_of_cell[seed] = num_rooms;
-        stack.push_back(seed);
+        take(seed);
+        if (stack.empty()) continue;
+        plan_.rooms.emplace_back();
         while (!stack.empty()) {
             const std::size_t cell = stack.back();
             stack.pop_back();
-            const auto visit = [&](std::size_t next) {
-                if (!is_free(next)) return;
-                plan_.room_of_cell[next] = num_rooms;
-                stack.push_back(next);
-            };
-            if (cell % width > 0) visit(cell - 1);
-            if (cell % width + 1 < width) visit(cell + 1);
-            if (cell >= width) visit(cell - width);
-            if (cell + width < cells_.size()) visit(cell + width);
+            if (cell % width > 0) take(cell - 1);
+            if (cell % width + 1 < width) take(cell + 1);
+            if (cell >= width) take(cell - width);
+            if (cell + width < cells_.size()) take(cell + width);
         }
-        ++num_rooms;
     }
-    plan_.rooms.assign(static_cast<std::size_t>(num_rooms), {});
 }
 
 /// Makes one of rooms that are parted under the ceiling alone, along more than an opening's width.
