@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "roomscribe/geometry/polygon.hpp"
+#include "roomscribe/interpretation/rooms/room_outline.hpp"
 
 namespace roomscribe {
 namespace {

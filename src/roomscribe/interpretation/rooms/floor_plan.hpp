@@ -1,16 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
-#include <span>
 #include <vector>
 
 #include <Eigen/Core>
-
-#include "roomscribe/interpretation/rooms/level_surfaces.hpp"
-#include "roomscribe/interpretation/rooms/ray_sample.hpp"
-#include "roomscribe/interpretation/rooms/upright_surfaces.hpp"
 
 namespace roomscribe {
 
@@ -60,6 +57,19 @@ class FloorPlan {
         return false;
     }
 
+    /// Calls `visit(cell)` for a cell and all within `reach` cells of it, along rows and columns.
+    template <typename Visit>
+    void for_each_neighbor(std::size_t cell, int reach, Visit&& visit) const {
+        const int x = static_cast<int>(cell % static_cast<std::size_t>(width_));
+        const int y = static_cast<int>(cell / static_cast<std::size_t>(width_));
+        for (int j = std::max(0, y - reach); j <= std::min(height_ - 1, y + reach); ++j) {
+            for (int i = std::max(0, x - reach); i <= std::min(width_ - 1, x + reach); ++i) {
+                visit(static_cast<std::size_t>(j) * static_cast<std::size_t>(width_) +
+                      static_cast<std::size_t>(i));
+            }
+        }
+    }
+
     std::vector<std::int32_t> room_of_cell;
     std::vector<bool> is_barrier;  ///< per cell
     std::vector<bool> has_level;   ///< per cell: floor or ceiling was seen
@@ -71,23 +81,5 @@ class FloorPlan {
     int width_ = 0;
     int height_ = 0;
 };
-
-/// Rooms are where floor or ceiling was seen, or rays passed through close to it, parted by upright
-/// surfaces. A surface parts rooms along its line where it reaches up to the ceiling, as a lintel
-/// does over a door, and not as furniture does; where no ceiling was seen, where it is taller than
-/// furniture. Gaps as wide as doors between pieces of one line are parted too. What parts only
-/// high up along a long line, as beams and steps of the ceiling do, parts no rooms.
-///
-/// Around a scanner, what its rays passed through is a room as far as it cannot look down; where it
-/// saw nothing level, as far as it saw. Of a storey without either there are no rooms.
-FloorPlan draw_floor_plan(std::span<const Ray> rays, const SurfaceSample& sample,
-                          std::span<const PlanarPatch> patches,
-                          const Eigen::Matrix3d& room_from_map, const Storey& storey,
-                          std::span<const UprightSurface> surfaces,
-                          const RoomSurfacesSettings& settings);
-
-/// The outline of a room: the rim of its cells without steps, counter-clockwise, in the plan's
-/// coordinates. Empty for a room without cells.
-std::vector<Eigen::Vector2d> trace_room(const FloorPlan& plan, std::int32_t room);
 
 }  // namespace roomscribe

@@ -2,8 +2,12 @@
 #include "roomscribe/interpretation/rooms/room_outline.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
+#include <map>
 #include <optional>
+#include <utility>
 
 #include <Eigen/Geometry>
 
@@ -32,7 +36,72 @@ std::optional<Vector2d> meeting_point(const PlanLine& a, const PlanLine& b) {
     return a.point + cross(b.point - a.point, b.direction) / sine * a.direction;
 }
 
+/// Corners that lie within `tolerance` of the line through their neighbours are left out, the least
+/// first (Visvalingam and Whyatt 1993 by height instead of area).
+void smooth_ring(std::vector<Vector2d>& ring, double tolerance) {
+    while (ring.size() > 4) {
+        std::size_t flattest = 0;
+        double least = std::numeric_limits<double>::infinity();
+        for (std::size_t i = 0; i < ring.size(); ++i) {
+            const Vector2d& before = ring[(i + ring.size() - 1) % ring.size()];
+            const Vector2d& after = ring[(i + 1) % ring.size()];
+            const double length = (after - before).norm();
+            const double height = length > 0.0
+                                      ? std::abs(cross(after - before, ring[i] - before)) / length
+                                      : (ring[i] - before).norm();
+            if (height >= least) continue;
+            least = height;
+            flattest = i;
+        }
+        if (least > tolerance) break;
+        ring.erase(ring.begin() + static_cast<std::ptrdiff_t>(flattest));
+    }
+}
+
 }  // namespace
+
+std::vector<Vector2d> trace_room(const FloorPlan& plan, std::int32_t room) {
+    // Edges between cells of the room and others, the room to the left, by their first corner.
+    const int width = plan.width();
+    const auto is_room = [&](int x, int y) {
+        return x >= 0 && y >= 0 && x < width && y < plan.height() &&
+               plan.room_of_cell[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
+                                 static_cast<std::size_t>(x)] == room;
+    };
+    using Corner = std::array<int, 2>;
+    std::multimap<Corner, Corner> edges;
+    for (int y = 0; y < plan.height(); ++y) {
+        for (int x = 0; x < width; ++x) {
+            if (!is_room(x, y)) continue;
+            if (!is_room(x, y - 1)) edges.insert({{x, y}, {x + 1, y}});
+            if (!is_room(x + 1, y)) edges.insert({{x + 1, y}, {x + 1, y + 1}});
+            if (!is_room(x, y + 1)) edges.insert({{x + 1, y + 1}, {x, y + 1}});
+            if (!is_room(x - 1, y)) edges.insert({{x, y + 1}, {x, y}});
+        }
+    }
+    std::vector<Vector2d> best;
+    double largest = 0.0;
+    const Vector2d low =
+        plan.num_cells() > 0
+            ? Vector2d(plan.middle_of(0) - Vector2d::Constant(0.5 * plan.cell_size()))
+            : Vector2d::Zero();
+    while (!edges.empty()) {
+        std::vector<Vector2d> ring;
+        auto edge = edges.begin();
+        while (edge != edges.end()) {
+            ring.emplace_back(low + plan.cell_size() * Vector2d(edge->first[0], edge->first[1]));
+            const Corner next = edge->second;
+            edges.erase(edge);
+            edge = edges.find(next);
+        }
+        const double area = signed_area(ring);
+        if (area <= largest) continue;
+        largest = area;
+        best = std::move(ring);
+    }
+    smooth_ring(best, 1.5 * plan.cell_size());
+    return best;
+}
 
 void fill_to_walls(FloorPlan& plan, std::span<const WallFace> faces,
                    const Eigen::Matrix3d& room_from_map) {

@@ -11,6 +11,10 @@
 
 namespace roomscribe {
 
+/// The outline of a room: the rim of its cells without steps, counter-clockwise, in the plan's
+/// coordinates. Empty for a room without cells.
+std::vector<Eigen::Vector2d> trace_room(const FloorPlan& plan, std::int32_t room);
+
 /// Gives to each room what lies between it and its walls, to 2 m deep: furniture before a wall
 /// hides floor and ceiling there, but no room ends at furniture.
 void fill_to_walls(FloorPlan& plan, std::span<const WallFace> faces,

@@ -12,7 +12,7 @@
 #include <fmt/format.h>
 
 #include "roomscribe/geometry/polygon.hpp"
-#include "roomscribe/interpretation/rooms/floor_plan.hpp"
+#include "roomscribe/interpretation/rooms/floor_plan_drawing.hpp"
 #include "roomscribe/interpretation/rooms/level_surfaces.hpp"
 #include "roomscribe/interpretation/rooms/outline.hpp"
 #include "roomscribe/interpretation/rooms/room_outline.hpp"

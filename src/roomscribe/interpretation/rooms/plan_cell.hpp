@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <limits>
+
+namespace roomscribe {
+
+/// What a cell of a FloorPlan is known to be, while the plan is drawn.
+struct PlanCell {
+    std::uint32_t num_rays = 0;
+    float ceiling = std::numeric_limits<float>::quiet_NaN();
+    bool has_floor = false;
+    bool is_occupied = false;  ///< something was seen between floor and ceiling
+    bool is_blind = false;     ///< rays passed, but no scanner could look down on the floor there
+    bool is_solid = false;     ///< of a barrier: there is surface at the height of people too
+};
+
+}  // namespace roomscribe
