@@ -165,6 +165,53 @@ Seeds vtk_seeds() {
                 std::string(24, '\x3f') + "\n"};
 }
 
+Seeds obj_seeds() {
+    return {"v 1 2 3\nvn 0 0 1\nf 1 1 1\n", "v 1 2 3 1 0 0.5\nv 4 5 6 0 1 0\n"};
+}
+Seeds tilt_seeds() {
+    return {
+        "unit mm\nstart -90\nstep 90\noffset 0.1 0 0.2\nrange 0.1 80\nscan -1 1 2 3\nscan 1 4 5 "
+        "6\n"};
+}
+/// 2 x 2 pixels, by any writer.
+constexpr unsigned char small_png[] = {
+    0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a, 0x00, 0x00, 0x00, 0x0d, 0x49, 0x48, 0x44,
+    0x52, 0x00, 0x00, 0x00, 0x02, 0x00, 0x00, 0x00, 0x02, 0x10, 0x00, 0x00, 0x00, 0x00, 0x07,
+    0x4d, 0x8e, 0xbb, 0x00, 0x00, 0x00, 0x12, 0x49, 0x44, 0x41, 0x54, 0x78, 0x9c, 0x63, 0x60,
+    0x7e, 0xc1, 0xc0, 0xc0, 0xc0, 0x7e, 0xe1, 0xff, 0x7f, 0x00, 0x0c, 0xee, 0x03, 0xc1, 0x20,
+    0x68, 0xfe, 0x7d, 0x00, 0x00, 0x00, 0x00, 0x49, 0x45, 0x4e, 0x44, 0xae, 0x42, 0x60, 0x82};
+
+/// CRC-32 of PNG and zlib.
+std::uint32_t png_checksum(Bytes bytes) {
+    std::uint32_t sum = 0xffffffffU;
+    for (const std::byte byte : bytes) {
+        sum ^= std::to_integer<std::uint32_t>(byte);
+        for (int bit = 0; bit < 8; ++bit)
+            sum = (sum >> 1U) ^ ((sum & 1U) != 0 ? 0xedb88320U : 0U);
+    }
+    return ~sum;
+}
+
+/// As with E57, checksums are put right first, of all chunks that are whole.
+void read_png_of(Bytes bytes) {
+    std::vector<std::byte> png(bytes.begin(), bytes.end());
+    const auto at = [&](std::size_t i) { return std::to_integer<std::uint32_t>(png[i]); };
+    for (std::size_t chunk = 8; chunk + 12 <= png.size();) {
+        const std::uint64_t size =
+            at(chunk) << 24U | at(chunk + 1) << 16U | at(chunk + 2) << 8U | at(chunk + 3);
+        if (size > png.size() - chunk - 12) break;
+        const std::uint32_t sum = png_checksum(std::span(png).subspan(chunk + 4, size + 4));
+        for (std::size_t i = 0; i < 4; ++i)
+            png[chunk + 8 + size + i] = static_cast<std::byte>(sum >> (24U - 8U * i));
+        chunk += size + 12;
+    }
+    scratch_file("intrinsics.txt", std::as_bytes(std::span("525 525 1 1\n", 12)));
+    read_cloud("png", png);
+}
+Seeds png_seeds() {
+    return {std::string(reinterpret_cast<const char*>(small_png), sizeof(small_png))};
+}
+
 void read_poses_of(Bytes bytes, const char* name) {
     const fs::path path = scratch_file(name, bytes);
     try {
@@ -237,6 +284,9 @@ constexpr Target all_targets[] = {
     {"npy", [](Bytes bytes) { read_cloud("npy", bytes); }, npy_seeds},
     {"uos", [](Bytes bytes) { read_cloud("3d", bytes); }, uos_seeds},
     {"vtk", [](Bytes bytes) { read_cloud("vtk", bytes); }, vtk_seeds},
+    {"obj", [](Bytes bytes) { read_cloud("obj", bytes); }, obj_seeds},
+    {"tilt", [](Bytes bytes) { read_cloud("tilt", bytes); }, tilt_seeds},
+    {"png", read_png_of, png_seeds},
     {"poses", [](Bytes bytes) { read_poses_of(bytes, "poses.txt"); }, pose_seeds},
     {"uos_pose", [](Bytes bytes) { read_poses_of(bytes, "scan.pose"); },
      [] { return Seeds{"1 2 3\n4 5 6\n"}; }},
