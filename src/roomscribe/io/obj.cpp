@@ -2,6 +2,9 @@
 #include "roomscribe/io/obj.hpp"
 
 #include <array>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -20,6 +23,28 @@ bool is_vertex(std::string_view text) {
     return text.starts_with("v ") || text.starts_with("v\t");
 }
 
+/// Takes the next word off the line; empty behind the last. Several times as fast as splitting a
+/// line into a vector, in what is most of the time of reading.
+std::string_view take_word(std::string_view& line) {
+    const auto is_blank = [](char c) { return c == ' ' || c == '\t' || c == '\r'; };
+    std::size_t begin = 0;
+    while (begin < line.size() && is_blank(line[begin]))
+        ++begin;
+    std::size_t end = begin;
+    while (end < line.size() && !is_blank(line[end]))
+        ++end;
+    const std::string_view word = line.substr(begin, end - begin);
+    line.remove_prefix(end);
+    return word;
+}
+
+std::size_t count_words(std::string_view line) {
+    std::size_t count = 0;
+    while (!take_word(line).empty())
+        ++count;
+    return count;
+}
+
 struct VertexCount {
     std::size_t vertices = 0;
     bool colored = true;  ///< every one has six numbers
@@ -31,7 +56,7 @@ VertexCount count_vertices(ByteReader reader) {
         const std::string_view line = reader.read_line();
         if (!is_vertex(line)) continue;
         ++count.vertices;
-        count.colored = count.colored && split_words(line).size() == 7;
+        count.colored = count.colored && count_words(line) == 7;
     }
     return count;
 }
@@ -39,15 +64,16 @@ VertexCount count_vertices(ByteReader reader) {
 using Vertex = std::array<double, 6>;
 
 Vertex parse_vertex(const ByteReader& reader, std::string_view line) {
-    const std::vector<std::string_view> words = split_words(line.substr(1));
-    if (words.size() != 3 && words.size() != 4 && words.size() != 6) {
-        reader.fail_at_line(fmt::format("{} numbers are no vertex", words.size()), cure);
-    }
+    line.remove_prefix(1);
     Vertex vertex{};
-    for (std::size_t i = 0; i < words.size(); ++i) {
-        const std::optional<double> number = parse_real(words[i]);
-        if (!number) reader.fail_at_line(quote_text(words[i]) + " is no number", cure);
-        vertex[i] = *number;
+    std::size_t count = 0;
+    for (std::string_view word = take_word(line); !word.empty(); word = take_word(line), ++count) {
+        const std::optional<double> number = parse_real(word);
+        if (!number) reader.fail_at_line(quote_text(word) + " is no number", cure);
+        if (count < vertex.size()) vertex[count] = *number;
+    }
+    if (count != 3 && count != 4 && count != 6) {
+        reader.fail_at_line(fmt::format("{} numbers are no vertex", count), cure);
     }
     return vertex;
 }
@@ -86,8 +112,10 @@ FileContents read_obj(const std::filesystem::path& path, const Context& context)
         if (!is_vertex(line)) continue;
         const Vertex vertex = parse_vertex(reader, line);
         chunk.push_back(vertex);
-        colors.push_back({color_byte(255.0 * vertex[3]), color_byte(255.0 * vertex[4]),
-                          color_byte(255.0 * vertex[5])});
+        if (count.colored) {
+            colors.push_back({color_byte(255.0 * vertex[3]), color_byte(255.0 * vertex[4]),
+                              color_byte(255.0 * vertex[5])});
+        }
         if (chunk.size() == vertices_per_chunk) flush();
     }
     if (!chunk.empty()) flush();
