@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include "pcl_stages.hpp"
+#include "roomscribe/core/random.hpp"
 #include "roomscribe/core/units.hpp"
 #include "roomscribe/io/point_cloud_io.hpp"
 #include "roomscribe/preprocessing/normal_estimation.hpp"
@@ -276,6 +277,51 @@ void compare_whole(const std::filesystem::path& target_path,
     print_difference("poses", link.target_from_source, theirs);
 }
 
+/// Reading of every format that we write, from files that lie in memory already; PCL has readers of
+/// PCD and PLY. Ours on one thread and with all.
+void compare_readers(int repetitions) {
+    constexpr std::size_t num_points = 4'000'000;
+    PointCloud cloud;
+    Random random(1);
+    for (std::size_t i = 0; i < num_points; ++i) {
+        cloud.positions.emplace_back(Eigen::Vector3d(random.uniform(-5.0, 5.0),
+                                                     random.uniform(-5.0, 5.0),
+                                                     random.uniform(0.0, 3.0))
+                                         .cast<float>());
+    }
+    fmt::print("\n{:<28} {:>16} {:>16} {:>16}\n", "reading, M points/s", "ours, 1 thread",
+               "ours, all", "PCL");
+    const auto compare_file = [&](const char* extension, Encoding encoding) {
+        const std::filesystem::path path =
+            std::filesystem::temp_directory_path() / fmt::format("stage_benchmark.{}", extension);
+        write_point_cloud(path, cloud, {.encoding = encoding});
+        const std::string_view kind(extension);
+        const bool pcl_reads = kind == "pcd" || kind == "ply";
+        std::array<std::vector<double>, 3> times;
+        for (int i = 0; i < repetitions; ++i) {
+            Context one_thread;
+            one_thread.num_threads = 1;
+            times[0].push_back(milliseconds([&] { read_scan(path, one_thread); }));
+            times[1].push_back(milliseconds([&] { read_scan(path); }));
+            PclScan theirs;
+            if (pcl_reads) times[2].push_back(milliseconds([&] { PclStages::read(theirs, path); }));
+        }
+        std::filesystem::remove(path);
+        fmt::print("{:<28}",
+                   fmt::format("{}{}", extension, encoding == Encoding::ascii ? ", ascii" : ""));
+        for (const std::vector<double>& column : times) {
+            const std::string rate =
+                column.empty() ? "-" : fmt::format("{:.1f}", num_points / median(column) / 1e3);
+            fmt::print(" {:>16}", rate);
+        }
+        fmt::print("\n");
+    };
+    for (const char* const extension : {"ply", "pcd", "las", "e57"})
+        compare_file(extension, Encoding::automatic);
+    for (const char* const extension : {"ply", "pcd", "xyz"})
+        compare_file(extension, Encoding::ascii);
+}
+
 void run(const std::filesystem::path& target_path, const std::filesystem::path& source_path,
          int repetitions) {
     fmt::print("{:<28} {:<26} {:>9} {:>9} {:>8}\n", "stage", "input", "ours, ms", "PCL, ms",
@@ -296,6 +342,7 @@ void run(const std::filesystem::path& target_path, const std::filesystem::path& 
     compare_narf(target, pcl_target, std::min(repetitions, 3));
     compare_planes(target, pcl_target, std::min(repetitions, 3));
     compare_whole(target_path, source_path, std::min(repetitions, 3));
+    compare_readers(std::min(repetitions, 3));
 }
 
 }  // namespace

@@ -34,9 +34,10 @@ void add_job_options(CLI::App& verb, JobOptions& options) {
 }
 
 void add_scans(CLI::App& verb, JobOptions& options) {
-    verb.add_option("SCANS", options.inputs,
-                    "Scans: PCD, PLY, E57, LAS, PTX, PTS, XYZ, CSV, UOS .3d or legacy VTK; "
-                    "all scans of a file are taken")
+    verb.add_option(
+            "SCANS", options.inputs,
+            "Scans: PCD, PLY, E57, LAS, PTX, PTS, XYZ, CSV, NPY, OBJ, UOS .3d, legacy VTK, depth "
+            "PNG, planar scans .tilt, a TUM RGB-D folder; all scans of a file are taken")
         ->type_name("")
         ->required();
     add_unit(verb, options.unit);

@@ -304,6 +304,9 @@ Json parse(std::string_view text, const DocumentName& name) {
     } catch (const Json::parse_error& error) {
         throw IoError(name.path, name.format, {.byte = error.byte, .line = {}}, "is not valid JSON",
                       cure);
+    } catch (const Json::out_of_range&) {
+        throw IoError(name.path, name.format, {}, "holds a number that no double can hold",
+                      "write it again, with finite numbers");
     }
 }
 

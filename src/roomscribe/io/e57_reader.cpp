@@ -25,7 +25,12 @@ constexpr std::string_view magic = "ASTM-E57";
 constexpr std::size_t header_bytes = 48;
 constexpr std::uint8_t vector_section = 1;
 constexpr std::uint8_t data_packet = 1;
-constexpr std::size_t values_per_chunk = 1U << 16U;
+/// Values of all properties together that are decoded at once.
+constexpr std::size_t values_per_chunk = 1U << 18U;
+/// Coordinates and colours grow at most sixfold when they are unpacked, a property that is the same
+/// for all points from nothing to 8 bytes. More is no scan, and is not given memory.
+constexpr std::uint64_t largest_growth = 32;
+constexpr std::uint64_t harmless_bytes = 1U << 20U;
 constexpr double rotation_tolerance = 1e-3;
 constexpr std::string_view cure = "the file is damaged: copy or export it again";
 
@@ -220,6 +225,16 @@ struct Records {
     std::vector<Column> columns;
 };
 
+/// Of one point, in the cloud.
+std::uint64_t bytes_in_memory(const Records& records) {
+    std::uint64_t bytes = sizeof(Eigen::Vector3f);
+    for (const Column& column : records.columns) {
+        const bool kept = column.role == Role::keep || column.role == Role::color;
+        if (kept) bytes += column.field.bytes();
+    }
+    return bytes;
+}
+
 void require_backed(const Source& source, const Records& records) {
     std::uint64_t bits = 0;
     for (const E57Stream& stream : records.streams)
@@ -229,6 +244,13 @@ void require_backed(const Source& source, const Records& records) {
         records.count > available / std::max<std::uint64_t>(bits, 1)) {
         source.fail(fmt::format("{} points of {} bits do not fit into the {} bytes of their part",
                                 records.count, bits, available / 8));
+    }
+    const std::uint64_t unpacked = records.count * bytes_in_memory(records);
+    if (unpacked > harmless_bytes + largest_growth * (available / 8)) {
+        source.fail(
+            fmt::format("{} points of {} bits would take {} MB, which the {} bytes of "
+                        "their part cannot fill",
+                        records.count, bits, unpacked >> 20U, available / 8));
     }
 }
 
@@ -408,6 +430,7 @@ PointCloud decode_points(const Source& source, const pugi::xml_node& scan, Recor
     PointDecoder decoder(fields, static_cast<std::size_t>(records.count));
     GridFinder grid(source, scan, records);
     std::vector<std::vector<double>> values(fields.size());
+    const std::size_t points_per_chunk = 1 + values_per_chunk / fields.size();
     std::vector<std::byte> packet;
     std::size_t done = 0;
     while (done < records.count) {
@@ -416,7 +439,7 @@ PointCloud decode_points(const Source& source, const pugi::xml_node& scan, Recor
         const std::size_t left = static_cast<std::size_t>(records.count) - done;
         std::size_t count = left;
         for (std::size_t i = 0; i < values.size(); ++i) {
-            const std::size_t wanted = std::min(left, values_per_chunk);
+            const std::size_t wanted = std::min(left, points_per_chunk);
             records.streams[i].decode(values[i], wanted - std::min(wanted, values[i].size()));
             count = std::min(count, values[i].size());
         }
@@ -440,12 +463,19 @@ PointCloud decode_points(const Source& source, const pugi::xml_node& scan, Recor
     return decoder.finish(std::nullopt, grid.grid());
 }
 
-FileContents read_one(const Source& source, const pugi::xml_node& scan, const Context& context) {
+/// `unclaimed`: bytes of the file that no scan before took for its points. Without it, many scans
+/// could name the same bytes.
+FileContents read_one(const Source& source, const pugi::xml_node& scan, std::uint64_t& unclaimed,
+                      const Context& context) {
     FileContents contents;
     contents.format = "E57";
     contents.name = scan.child("name").text().get();
     contents.map_from_scan = read_pose(source, scan);
     Records records = open_records(source, scan);
+    if (records.end - records.position > unclaimed) {
+        source.fail("the points of several scans are said to stand in one place");
+    }
+    unclaimed -= records.end - records.position;
     for (const E57Stream& stream : records.streams)
         contents.fields.push_back({stream.element().name, type_of(stream.element()), 1});
     contents.encoding = fmt::format("{} properties", records.streams.size());
@@ -485,8 +515,10 @@ std::vector<FileContents> read_e57(const std::filesystem::path& path, const Cont
                                 result.description()));
     }
     std::vector<FileContents> scans;
+    std::uint64_t unclaimed = pages.size();
     for (const pugi::xml_node scan : document.child("e57Root").child("data3D").children()) {
-        if (scan.type() == pugi::node_element) scans.push_back(read_one(source, scan, context));
+        if (scan.type() != pugi::node_element) continue;
+        scans.push_back(read_one(source, scan, unclaimed, context));
     }
     if (scans.empty()) source.fail("there is no scan in it");
     return scans;

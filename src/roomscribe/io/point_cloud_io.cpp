@@ -10,15 +10,18 @@
 
 #include "roomscribe/core/error.hpp"
 #include "roomscribe/io/byte_reader.hpp"
+#include "roomscribe/io/depth_images.hpp"
 #include "roomscribe/io/e57.hpp"
 #include "roomscribe/io/file_contents.hpp"
 #include "roomscribe/io/global_shift.hpp"
 #include "roomscribe/io/las.hpp"
 #include "roomscribe/io/npy.hpp"
+#include "roomscribe/io/obj.hpp"
 #include "roomscribe/io/pcd.hpp"
 #include "roomscribe/io/ply.hpp"
 #include "roomscribe/io/ptx.hpp"
 #include "roomscribe/io/text_points.hpp"
+#include "roomscribe/io/tilted_scans.hpp"
 #include "roomscribe/io/uos.hpp"
 #include "roomscribe/io/vtk.hpp"
 
@@ -46,9 +49,19 @@ std::vector<FileContents> read_contents(const std::filesystem::path& path, const
         {".pcd", read_pcd},         {".ply", read_ply},         {".3d", read_uos},
         {".vtk", read_vtk},         {".las", read_las},         {".laz", read_las},
         {".pts", read_text_points}, {".xyz", read_text_points}, {".txt", read_text_points},
-        {".asc", read_text_points}, {".csv", read_text_points}, {".npy", read_npy_points}};
+        {".asc", read_text_points}, {".csv", read_text_points}, {".npy", read_npy_points},
+        {".obj", read_obj},         {".png", read_depth_image}, {".tilt", read_tilted_scans}};
     constexpr std::pair<std::string_view, ReadAll> several[] = {{".e57", read_e57},
                                                                 {".ptx", read_ptx}};
+    if (std::filesystem::is_directory(path)) {
+        const std::filesystem::path index = index_of_scans(path);
+        if (index.filename() == tum_index) return read_tum_folder(path, context);
+        if (index.filename() == tilted_scans_index) {
+            std::vector<FileContents> contents;
+            contents.push_back(read_tilted_scans(index, context));
+            return contents;
+        }
+    }
     const std::string extension = lower_extension(path);
     for (const auto& [known, read] : several) {
         if (extension == known) return read(path, context);
@@ -62,8 +75,8 @@ std::vector<FileContents> read_contents(const std::filesystem::path& path, const
     // A missing file or a folder is the better message.
     const MappedFile file(path, "");
     throw IoError(file.path(), "", {}, fmt::format("the extension '{}' is unknown", extension),
-                  "give a .pcd, .ply, .e57, .las, .ptx, .pts, .xyz, .txt, .asc, .csv, .npy, .3d or "
-                  ".vtk file");
+                  "give a .pcd, .ply, .e57, .las, .ptx, .pts, .xyz, .txt, .asc, .csv, .npy, .obj, "
+                  ".png, .tilt, .3d or .vtk file, or a folder with depth.txt or scans.tilt");
 }
 
 /// "hall.e57#2", or with the scan's own name.
@@ -132,7 +145,17 @@ FileSummary summarize(FileContents contents) {
 
 }  // namespace
 
+std::filesystem::path index_of_scans(const std::filesystem::path& path) {
+    for (const char* const index : {tum_index, tilted_scans_index}) {
+        if (std::filesystem::is_directory(path) && std::filesystem::exists(path / index)) {
+            return path / index;
+        }
+    }
+    return path;
+}
+
 bool may_hold_poses(const std::filesystem::path& path) {
+    if (index_of_scans(path).filename() == tum_index) return true;
     const std::string extension = lower_extension(path);
     return extension == ".e57" || extension == ".ptx";
 }

@@ -27,6 +27,11 @@ namespace roomscribe {
 //   .ptx    all scans of the file                no                     intensity, colours, grid
 //   .xyz .txt .asc .csv .pts   guessed columns   all but .pts           all but grid, pose (6)
 //   .npy    N x 3 to 6, guessed columns          no                     as text
+//   .obj    vertices                             no                     colours
+//   .tilt   planar scans with tilts (7)          no                     grid, sensor pose
+//   .png    a depth image of 16 bits (8)         no                     grid, sensor pose
+//   folder  with depth.txt (TUM RGB-D) (8),      no                     grid, pose
+//           or with scans.tilt (7)
 //   .vtk    legacy points, ascii and binary      no                     nothing
 //
 // "All" are normals, colours, intensities, the scan grid, the sensor pose, and any other property
@@ -40,6 +45,8 @@ namespace roomscribe {
 // (4) See e57.hpp.
 // (5) No grid, no pose, and no points without coordinates; see las.hpp.
 // (6) See text_points.hpp.
+// (7) See tilted_scans.hpp.
+// (8) See depth_images.hpp.
 //
 // `x y z` may be of any type. `nx ny nz` or `normal_x normal_y normal_z` of a floating type are the
 // normals; `red green blue` of uchar, or a packed 4-byte `rgb` or `rgba`, the colours (alpha is
@@ -66,7 +73,8 @@ struct WriteOptions {
 /// What is in a file, for people.
 struct FileSummary {
     std::string name;      ///< what the file calls the scan; mostly empty
-    std::string format;    ///< "PCD", "PLY", "E57", "LAS", "PTX", "PTS", "text", "UOS", "VTK"
+    std::string format;    ///< "PCD", "PLY", "E57", "LAS", "PTX", "PTS", "text", "UOS", "VTK",
+                           ///< "OBJ", "depth image", "tilted scans"
     std::string encoding;  ///< as the format calls it: "binary_compressed"
     std::size_t num_points = 0;
     std::vector<Field> fields;  ///< of a point, in file order, those that are not read too
@@ -88,6 +96,9 @@ struct StoredScan {
     /// The same for all scans of a file.
     Eigen::Vector3d map_shift = Eigen::Vector3d::Zero();
 };
+
+/// The file that names the scans of a folder that is read as scans; any other path as it is.
+std::filesystem::path index_of_scans(const std::filesystem::path& path);
 
 /// Whether files with this extension may say where their scans stand.
 bool may_hold_poses(const std::filesystem::path& path);

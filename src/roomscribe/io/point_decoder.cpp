@@ -7,6 +7,7 @@
 #include <cstring>
 #include <initializer_list>
 #include <string_view>
+#include <type_traits>
 
 #include "roomscribe/core/parallel.hpp"
 #include "roomscribe/io/byte_reader.hpp"
@@ -80,6 +81,36 @@ void convert_column(float* target, std::size_t target_stride, FieldSource source
     });
 }
 
+/// The same for three values of one type per point, in one pass over the records.
+void convert_triple(Eigen::Vector3f* target, const SourceRun& run,
+                    const std::array<std::size_t, 3>& fields, ScalarType type,
+                    const Eigen::Vector3d& scale, const Eigen::Vector3d& offset) {
+    const std::array<FieldSource, 3> sources{run.source(fields[0]), run.source(fields[1]),
+                                             run.source(fields[2])};
+    with_scalar_type(type, [&]<typename Value>(std::type_identity<Value>) {
+        const auto convert = [&](auto swapped) {
+            for (std::size_t i = 0; i < run.count; ++i) {
+                std::array<double, 3> point{};
+                for (std::size_t k = 0; k < 3; ++k) {
+                    Value value;
+                    std::memcpy(&value, sources[k].first + i * sources[k].stride, sizeof(Value));
+                    if constexpr (decltype(swapped)::value) value = swap_bytes(value);
+                    point[k] = static_cast<double>(value);
+                }
+                for (std::size_t k = 0; k < 3; ++k) {
+                    const auto axis = static_cast<Eigen::Index>(k);
+                    target[i][axis] = static_cast<float>(point[k] * scale[axis] + offset[axis]);
+                }
+            }
+        };
+        if (run.swap) {
+            convert(std::true_type());
+        } else {
+            convert(std::false_type());
+        }
+    });
+}
+
 /// Three values per point, of a type that is kept: at once where they lie side by side.
 void copy_triple(std::byte* target, const SourceRun& run, const std::array<std::size_t, 3>& fields,
                  std::size_t size) {
@@ -110,6 +141,11 @@ void decode_vectors(std::vector<Eigen::Vector3f>& vectors, const SourceRun& run,
     });
     if (exact) {
         copy_triple(reinterpret_cast<std::byte*>(target), run, fields, sizeof(float));
+        return;
+    }
+    const ScalarType type = all[fields[0]].type;
+    if (all[fields[1]].type == type && all[fields[2]].type == type) {
+        convert_triple(target, run, fields, type, scale, offset);
         return;
     }
     for (std::size_t k = 0; k < 3; ++k) {

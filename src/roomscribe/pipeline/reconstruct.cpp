@@ -11,6 +11,7 @@
 #include "roomscribe/interpretation/fixtures/furniture_fixtures.hpp"
 #include "roomscribe/interpretation/fixtures/mounting_faces.hpp"
 #include "roomscribe/interpretation/furniture/furniture.hpp"
+#include "roomscribe/interpretation/open_places.hpp"
 #include "roomscribe/interpretation/openings/wall_openings.hpp"
 #include "roomscribe/interpretation/paper_rules/label_by_rules.hpp"
 #include "roomscribe/interpretation/paper_rules/orient_by_door.hpp"
@@ -189,6 +190,7 @@ void interpret_by_default(Reconstruction& reconstruction, const ScanMap& map,
     std::move(furniture.components.begin(), furniture.components.end(),
               std::back_inserter(reconstruction.scene.components));
     add_fixtures(fixtures, faces, reconstruction.scene, reconstruction.labels);
+    doubt_open_places(reconstruction.scene, reconstruction.labels);
     stages.finish("fixtures", 1.0);
     add_derived_values(reconstruction.derived_values, statistics, sample, settings.structure);
 }

@@ -77,11 +77,12 @@ Json nested_settings(std::span<const SettingEntry> settings) {
 
 InputFile describe_input(const std::filesystem::path& path) {
     std::error_code error;
-    const std::uintmax_t size = std::filesystem::file_size(path, error);
+    const std::filesystem::path file = index_of_scans(path);
+    const std::uintmax_t size = std::filesystem::file_size(file, error);
     if (error) {
         throw IoError(path.string(), "", {}, error.message(), "check the path and its permissions");
     }
-    return {path.string(), size, hash_file(path)};
+    return {path.string(), size, hash_file(file)};
 }
 
 void prepare_output_folder(const std::filesystem::path& folder) {

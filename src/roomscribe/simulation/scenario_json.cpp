@@ -244,6 +244,9 @@ Scenario scenario_from_json(std::string_view text, const std::string& path) {
     } catch (const Json::parse_error& error) {
         throw IoError(path, "scenario JSON", {.byte = error.byte}, "is not JSON",
                       "see docs/simulation.md");
+    } catch (const Json::out_of_range&) {
+        throw IoError(path, "scenario JSON", {}, "holds a number that no double can hold",
+                      "see docs/simulation.md");
     }
     Scenario scenario;
     read(json, Place{path, ""}, scenario);

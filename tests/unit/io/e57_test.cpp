@@ -312,6 +312,36 @@ TEST(E57, WrongPlacesCountsAndXmlAreRefused) {
     }
 }
 
+std::string constant(const std::string& name) {
+    return "<" + name + R"( type="Integer" minimum="7" maximum="7"/>)";
+}
+
+TEST(E57, BytesThatUnpackToAHundredfoldAreRefused) {
+    const std::string one_bit = R"(<cartesianX type="Integer" minimum="0" maximum="1"/>)" +
+                                constant("cartesianY") + constant("cartesianZ");
+    const std::vector<std::string> packets(3, packet_of({std::string(60000, '\1'), "", ""}));
+    EXPECT_EQ(read_one(e57_logical(one_bit, "", 60000, packets)).size(), 60000U);
+    EXPECT_THAT(error_of(paged(e57_logical(one_bit, "", 1440000, packets))),
+                HasSubstr("cannot fill"));
+    std::string many = one_bit;
+    for (int i = 0; i < 500; ++i)
+        many += constant("p" + std::to_string(i));
+    EXPECT_THAT(error_of(paged(e57_logical(many, "", 60000, packets))), HasSubstr("cannot fill"));
+}
+
+TEST(E57, ScansThatShareTheirBytesAreRefused) {
+    const std::string ones = values<float>({1.0F, 2.0F});
+    std::vector<std::string> streams(3, ones);
+    std::string logical =
+        e57_logical(single_xyz, "", 2, {packet_of(streams), std::string(4000, '\0')});
+    const std::size_t begin = logical.find("<vectorChild");
+    const std::size_t end = logical.find("</data3D>");
+    const std::string scan = logical.substr(begin, end - begin);
+    logical.insert(end, scan);
+    put<std::uint64_t>(logical, 32, logical.size() - logical.find("<?xml"));
+    EXPECT_THAT(error_of(paged(logical)), HasSubstr("in one place"));
+}
+
 TEST(E57, ChangedBytesUnderRightChecksumsNeverDoHarm) {
     const test::TemporaryFolder folder;
     const std::string ones = values<float>({1.0F, 2.0F});
