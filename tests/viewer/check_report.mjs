@@ -188,7 +188,7 @@ try {
   await tool("Walk");
   await rest();
   const eye = await place();
-  assert.ok(Math.abs(eye[2] - (model.rooms[0].floor + 1.6)) < 0.01, "eyes are at " + eye[2]);
+  assert.ok(model.rooms.some((room) => Math.abs(eye[2] - (room.floor + 1.6)) < 0.01), "eyes are at " + eye[2]);
   await shoot("walk");
   for (const key of ["w", "s", "a", "d", "ArrowUp", "ArrowDown", "q", "e"]) await moves("walking by " + key, () => holdKey(key));
   await changes("turning by ArrowLeft", () => holdKey("ArrowLeft"));

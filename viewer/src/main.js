@@ -7,7 +7,7 @@ import { ElementPanel } from "./element_panel.js";
 import { EyeDome } from "./eye_dome.js";
 import { Measuring } from "./measuring.js";
 import { ModelMeshes } from "./model_meshes.js";
-import { NearWalls } from "./near_walls.js";
+import { isInside, NearWalls } from "./near_walls.js";
 import { Navigation } from "./navigation.js";
 import { Overlay } from "./overlay.js";
 import { Picking } from "./picking.js";
@@ -386,10 +386,14 @@ class Viewer {
 
   setMode(mode) {
     const first = this.model.scans.find((scan) => scan.position)?.position;
-    const room = this.model.rooms[0];
+    const room = this.model.rooms.find(({ polygon }) => first && isInside(polygon, first)) ?? this.model.rooms[0];
     const middle = this.box.getCenter(new THREE.Vector3());
     const start = first ? [first[0], first[1], room ? room.floor : this.box.min.z] : [middle.x, middle.y, this.box.min.z];
-    this.navigation.setMode(mode, start);
+    // Along the longest way that the room leaves.
+    const corners = room ? room.polygon : [[this.box.min.x, this.box.min.y], [this.box.max.x, this.box.max.y]];
+    const farness = ([x, y]) => Math.hypot(x - start[0], y - start[1]);
+    const goal = corners.reduce((best, corner) => (farness(corner) > farness(best) ? corner : best));
+    this.navigation.setMode(mode, start, goal);
     this.tools.walk.setAttribute("aria-pressed", String(mode === "walk"));
     this.stage.classList.toggle("v-walks", mode === "walk");
     if (mode === "walk") this.canvas.focus({ preventScroll: true });

@@ -163,7 +163,8 @@ export class Navigation {
     this.onMove();
   }
 
-  setMode(mode, start) {
+  /// Walking begins at `start`, a place on the floor, with a look at `goal`.
+  setMode(mode, start, goal) {
     if (mode === this.mode) return;
     this.mode = mode;
     this.flight = null;
@@ -173,9 +174,8 @@ export class Navigation {
       this.showAll();
       return;
     }
-    const ahead = this.camera.getWorldDirection(new THREE.Vector3());
-    this.yaw = Math.atan2(ahead.y, ahead.x);
-    this.pitch = -0.05;
+    this.yaw = Math.atan2(goal[1] - start[1], goal[0] - start[0]);
+    this.pitch = -0.12;
     this.camera.position.set(start[0], start[1], start[2] + eyeHeight);
     this.#look();
   }

@@ -14,7 +14,7 @@ function normalOf(outline) {
   return normal.normalize();
 }
 
-function isInside(polygon, [x, y]) {
+export function isInside(polygon, [x, y]) {
   let inside = false;
   polygon.forEach(([ax, ay], i) => {
     const [bx, by] = polygon[(i + 1) % polygon.length];

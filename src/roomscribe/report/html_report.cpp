@@ -11,6 +11,7 @@
 #include "roomscribe/core/units.hpp"
 #include "roomscribe/io/atomic_file.hpp"
 #include "roomscribe/report/html_text.hpp"
+#include "roomscribe/report/report_drawings.hpp"
 #include "roomscribe/report/report_figures.hpp"
 #include "roomscribe/report/report_style.hpp"
 #include "roomscribe/report/report_tables.hpp"
@@ -260,6 +261,8 @@ std::string render_html_report(const Reconstruction& reconstruction, const Repor
     html += section("Other maps", maps_apart(reconstruction));
     html += section("3D view", viewer_part(reconstruction, info.viewer_points, context));
     html += section("Pictures", pictures(reconstruction, info.picture_width, context));
+    html += section("Drawings", floor_plan_drawing(reconstruction.scene));
+    html += section("Elevations", wall_elevations(reconstruction.scene));
     html += section("Furniture", furniture_figures(reconstruction, context));
     html += section("Rooms", rooms_table(reconstruction));
     html += section("Components", components_table(reconstruction));
