@@ -33,15 +33,18 @@ std::uint64_t morton_code(const std::array<std::uint16_t, 3>& place) {
     return spread_bits(place[0]) | (spread_bits(place[1]) << 1U) | (spread_bits(place[2]) << 2U);
 }
 
+/// The inverse of spread_bits.
+std::uint16_t gather_bits(std::uint64_t value) {
+    value &= 0x9249249249249249U;
+    value = (value | (value >> 2U)) & 0x30C30C30C30C30C3U;
+    value = (value | (value >> 4U)) & 0xF00F00F00F00F00FU;
+    value = (value | (value >> 8U)) & 0x00FF0000FF0000FFU;
+    value = (value | (value >> 16U)) & 0x00FF00000000FFFFU;
+    return static_cast<std::uint16_t>(value | (value >> 32U));
+}
+
 std::array<std::uint16_t, 3> place_of(std::uint64_t code) {
-    std::array<std::uint16_t, 3> place{};
-    for (unsigned bit = 0; bit < grid_levels; ++bit) {
-        for (unsigned axis = 0; axis < 3; ++axis) {
-            const std::uint64_t one = (code >> (3U * bit + axis)) & 1U;
-            place[axis] = static_cast<std::uint16_t>(place[axis] | (one << bit));
-        }
-    }
-    return place;
+    return {gather_bits(code), gather_bits(code >> 1U), gather_bits(code >> 2U)};
 }
 
 struct CodedPoint {
@@ -51,7 +54,7 @@ struct CodedPoint {
 
 constexpr std::uint64_t outside = ~std::uint64_t{0};
 
-/// Sorts by code, then number: shared out by the eight upper bits of each code's 16 x 3.
+/// Sorts by code, then number: shared out by the twelve upper bits of the codes.
 std::vector<CodedPoint> sorted_points(const std::vector<std::uint64_t>& codes,
                                       const Context& context) {
     constexpr unsigned bucket_shift = 3 * grid_levels - 12;
@@ -196,8 +199,12 @@ GriddedPoints grid_points(const Reconstruction& reconstruction, const Eigen::Ali
                 codes[i] = morton_code(place);
             }
         });
+    const std::vector<CodedPoint> sorted = sorted_points(codes, context);
+    points.places.reserve(sorted.size());
+    points.numbers.reserve(sorted.size());
+    points.levels.reserve(sorted.size());
     std::uint64_t before = outside;
-    for (const CodedPoint& point : sorted_points(codes, context)) {
+    for (const CodedPoint& point : sorted) {
         if (point.code == before) continue;
         points.places.push_back(place_of(point.code));
         points.numbers.push_back(point.number);
