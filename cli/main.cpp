@@ -27,6 +27,7 @@
 #include "cli/simulate_command.hpp"
 #include "cli/suite_command.hpp"
 #include "cli/version_command.hpp"
+#include "cli/view_command.hpp"
 #include "roomscribe/core/error.hpp"
 
 namespace roomscribe::cli {
@@ -58,6 +59,7 @@ void declare_verbs(CLI::App& program, Action& action) {
     add_info_command(program, action);
     add_explain_command(program, action);
     add_export_command(program, action);
+    add_view_command(program, action);
     add_evaluate_command(program, action);
     add_simulate_command(program, action);
     add_suite_command(program, action);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// report_test.mjs PROGRAM: makes up a flat, interprets it, and checks its report in a browser.
+// report_test.mjs PROGRAM: makes up a flat, interprets it, serves it, and checks its report in a browser.
 import { spawnSync } from "node:child_process";
 import { mkdtempSync, readdirSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
@@ -28,6 +28,7 @@ try {
     run(program, "simulate", "flat", "--seed", "3", "--coarseness", "8", "-o", flat);
     const scans = readdirSync(join(flat, "scans")).sort().map((name) => join(flat, "scans", name));
     run(program, "interpret", ...scans, "--poses", join(flat, "truth/poses.txt"), "-o", out);
+    console.log(run(process.execPath, join(here, "check_view.mjs"), program, out));
     console.log(run(process.execPath, join(here, "check_report.mjs"), out));
   }
 } catch (error) {

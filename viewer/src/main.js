@@ -251,7 +251,8 @@ class Viewer {
     const height = this.renderer.domElement.height;
     uniforms.pixelsPerUnit.value = height / (2 * Math.tan(THREE.MathUtils.degToRad(this.navigation.camera.fov / 2)));
     uniforms.pointSize.value = 1.35 * state.size * (this.cloud.spacing || 0.01) / Math.sqrt(this.share);
-    uniforms.maxPixels.value = 0.02 * height + 4;
+    // Streamed points are as far apart on the screen wherever they are.
+    uniforms.maxPixels.value = this.stream ? 3.2 * state.size * this.renderer.getPixelRatio() : 0.02 * height + 4;
   }
 
   #drawHalf(isInput, half) {

@@ -18,6 +18,7 @@ export class PointStream {
     this.meshes = new Map();
     this.waiting = new Set();
     this.wanted = [];
+    this.nodes = [];
   }
 
   async start() {

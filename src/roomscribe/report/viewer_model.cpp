@@ -176,7 +176,9 @@ std::string viewer_model_json(const Reconstruction& reconstruction, const Gridde
     Json json;
     json["format"] = "roomscribe-view";
     json["version"] = 1;
+    const Eigen::Vector3d& size = points.size_of_box;
     json["cube"] = {{"low", {points.low.x(), points.low.y(), points.low.z()}},
+                    {"size", {size.x(), size.y(), size.z()}},
                     {"step", points.step}};
     json["points"] = {{"shown", num_shown},
                       {"total", cloud.size()},

@@ -180,6 +180,7 @@ GriddedPoints grid_points(const Reconstruction& reconstruction, const Eigen::Ali
                           const Context& context) {
     GriddedPoints points;
     points.low = box.min();
+    points.size_of_box = box.sizes();
     points.step = std::max(box.sizes().maxCoeff(), 1e-3) / 65535.0;
     const std::vector<Eigen::Vector3f>& positions = reconstruction.map.cloud.positions;
     std::vector<std::uint64_t> codes(positions.size(), outside);

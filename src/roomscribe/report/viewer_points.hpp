@@ -20,7 +20,8 @@ namespace roomscribe {
 /// points.
 struct GriddedPoints {
     Eigen::Vector3d low = Eigen::Vector3d::Zero();  ///< corner of the cube, in the room frame
-    double step = 1.0;                              ///< m
+    Eigen::Vector3d size_of_box = Eigen::Vector3d::Zero();  ///< m, of the box that holds them
+    double step = 1.0;                                      ///< m
     std::vector<std::array<std::uint16_t, 3>> places;
     std::vector<std::uint32_t> numbers;  ///< of the points in the map
     /// Octree level, 0 to 16, from which on a point and the one before it are in cells of their
