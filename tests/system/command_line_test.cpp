@@ -20,7 +20,7 @@ TEST(CommandLine, PrintsShortHelpWithoutArguments) {
     EXPECT_EQ(result.exit_code, 0);
     EXPECT_EQ(result.err, "");
     for (const char* verb : {"run", "register", "interpret", "convert", "info", "explain", "export",
-                             "demo", "settings", "version", "view"}) {
+                             "demo", "settings", "version", "view", "completion", "man"}) {
         EXPECT_THAT(result.out, HasSubstr(verb));
     }
     EXPECT_LT(std::count(result.out.begin(), result.out.end(), '\n'), 40);
