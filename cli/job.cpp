@@ -14,9 +14,12 @@
 #include "cli/output_folder.hpp"
 #include "cli/scan_unit.hpp"
 #include "roomscribe/core/error.hpp"
+#include "roomscribe/export/json.hpp"
 #include "roomscribe/geometry/bounding_box.hpp"
+#include "roomscribe/io/byte_reader.hpp"
 #include "roomscribe/io/point_cloud_io.hpp"
 #include "roomscribe/io/poses_io.hpp"
+#include "roomscribe/pipeline/corrections.hpp"
 #include "roomscribe/pipeline/scoring.hpp"
 #include "roomscribe/pipeline/truth_folder.hpp"
 #include "roomscribe/pipeline/workspace.hpp"
@@ -109,6 +112,40 @@ std::filesystem::path write_results(const std::filesystem::path& folder,
     return report;
 }
 
+/// Where corrections are, if there are any.
+std::optional<std::string> find_corrections(const JobOptions& options) {
+    if (!options.corrections.empty()) return options.corrections;
+    const auto beside = std::filesystem::path(options.output) / "corrections.json";
+    return std::filesystem::exists(beside) ? std::optional(beside.string()) : std::nullopt;
+}
+
+/// Read before the work starts, so that a long run does not end on a wrong file.
+std::vector<Correction> read_corrections(const std::optional<std::string>& path) {
+    if (!path) return {};
+    const MappedFile file(*path, "corrections JSON");
+    return corrections_from_json(file.text(), *path);
+}
+
+/// Corrections come in the coordinates of files. Returns what is to be said, in one line.
+std::string correct(Reconstruction& reconstruction, std::vector<Correction> corrections) {
+    if (corrections.empty() || reconstruction.labels.labels.empty()) return {};
+    for (Correction& correction : corrections) {
+        Scene alone;
+        alone.components = {correction.element};
+        alone = transformed_scene(
+            alone, Transform(Eigen::Translation3d(-reconstruction.map.cloud.global_shift)));
+        correction.element = alone.components.front();
+    }
+    const CorrectionOutcome outcome = apply_corrections(reconstruction, corrections);
+    std::string text =
+        fmt::format("{} of {} corrections are applied", outcome.num_applied, corrections.size());
+    for (const std::string& line : outcome.unmatched)
+        text += "; " + line;
+    reconstruction.derived_values.push_back(
+        {"corrections", static_cast<double>(outcome.num_applied), "", text});
+    return text;
+}
+
 /// What is to be said of the unit, in run.json too.
 void note_unit(JobSummary& summary, Reconstruction& reconstruction) {
     auto& values = reconstruction.derived_values;
@@ -182,6 +219,9 @@ ExitCode run_job(std::string_view verb, const JobOptions& options, const std::at
         const Context context = make_context(options, cancel, display);
         ReportInfo info;
         info.run = make_record(verb, options, settings);
+        const std::optional<std::string> corrections_path = find_corrections(options);
+        const std::vector<Correction> corrections = read_corrections(corrections_path);
+        if (corrections_path) info.run.inputs.push_back(describe_input(*corrections_path));
         JobInput input = load_scans(options.inputs, context);
         load_poses(input, options, context);
         summary.unit = convert_to_metres(input.scans, input.paths, options.unit, context);
@@ -191,6 +231,7 @@ ExitCode run_job(std::string_view verb, const JobOptions& options, const std::at
         reconstruction = work(input, settings, context);
         context.throw_if_cancelled();
         note_unit(summary, reconstruction);
+        summary.corrections = correct(reconstruction, corrections);
         info.score = summary.score = score(options, reconstruction, context);
         summary.report = write_results(output.path(), reconstruction, info, context);
     }

@@ -68,6 +68,13 @@ void add_output(CLI::App& verb, JobOptions& options) {
         ->required();
 }
 
+void add_corrections(CLI::App& verb, JobOptions& options) {
+    verb.add_option("--corrections", options.corrections,
+                    "What is pinned, rejected, relabelled or of another size (docs/formats.md); "
+                    "default: corrections.json in FOLDER, where it is there")
+        ->type_name("FILE");
+}
+
 void add_truth(CLI::App& verb, JobOptions& options) {
     verb.add_option("--truth", options.truth,
                     "Truth folder of these scans, as simulate writes it: score the result")

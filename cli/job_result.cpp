@@ -247,6 +247,7 @@ std::string result_tables(const Reconstruction& reconstruction, const JobSummary
                             length_unit_word(summary.unit.unit), summary.unit.reason);
     }
     if (!summary.doubt.empty()) text += fmt::format("\n{}\n", summary.doubt);
+    if (!summary.corrections.empty()) text += fmt::format("\n{}\n", summary.corrections);
     if (reconstruction.registration && !reconstruction.registration->links.empty()) {
         text += fmt::format("\n{}", link_table(reconstruction));
     }
@@ -273,6 +274,7 @@ std::string result_json(const Reconstruction& reconstruction, const JobSummary& 
     result["seconds"] = summary.seconds;
     result["input_unit"] = length_unit_name(summary.unit.unit);
     if (!summary.doubt.empty()) result["doubt"] = summary.doubt;
+    if (!summary.corrections.empty()) result["corrections"] = summary.corrections;
     result["scans"] = scans_to_json(reconstruction);
     if (reconstruction.registration) {
         result["links"] = links_to_json(*reconstruction.registration);

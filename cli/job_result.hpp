@@ -17,6 +17,7 @@ struct JobSummary {
     double seconds = 0.0;
     ScanUnit unit;                           ///< of the scans
     std::string doubt;                       ///< of that unit, in one line; empty if there is none
+    std::string corrections;                 ///< what became of them; empty if there are none
     std::optional<EvaluationSummary> score;  ///< against truth, where it was given
 };
 

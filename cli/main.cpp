@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include "cli/command.hpp"
+#include "cli/completion_command.hpp"
 #include "cli/convert_command.hpp"
 #include "cli/demo_command.hpp"
 #include "cli/evaluate_command.hpp"
@@ -20,6 +21,7 @@
 #include "cli/info_command.hpp"
 #include "cli/interpret_command.hpp"
 #include "cli/interrupt.hpp"
+#include "cli/man_command.hpp"
 #include "cli/register_command.hpp"
 #include "cli/reproduce_command.hpp"
 #include "cli/run_command.hpp"
@@ -27,6 +29,7 @@
 #include "cli/simulate_command.hpp"
 #include "cli/suite_command.hpp"
 #include "cli/version_command.hpp"
+#include "cli/view_command.hpp"
 #include "roomscribe/core/error.hpp"
 
 namespace roomscribe::cli {
@@ -58,6 +61,7 @@ void declare_verbs(CLI::App& program, Action& action) {
     add_info_command(program, action);
     add_explain_command(program, action);
     add_export_command(program, action);
+    add_view_command(program, action);
     add_evaluate_command(program, action);
     add_simulate_command(program, action);
     add_suite_command(program, action);
@@ -65,6 +69,8 @@ void declare_verbs(CLI::App& program, Action& action) {
     add_demo_command(program, action);
     add_settings_command(program, action);
     add_version_command(program, action);
+    add_completion_command(program, action);
+    add_man_command(program, action);
 }
 
 ExitCode run_program(int argc, char** argv) {

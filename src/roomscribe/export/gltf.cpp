@@ -128,21 +128,7 @@ class GlbWriter {
             if ((component.box->size.array() > 0.0).all()) add_box(mesh, *component.box);
             return mesh;
         }
-        for (std::size_t wall = 0; wall < building_.walls.size(); ++wall) {
-            const auto& faces = building_.walls[wall].faces;
-            for (std::size_t face = 0; face < faces.size(); ++face) {
-                if (faces[face].component != index) continue;
-                mesh.add(pieces_of_face(building_, wall, face));
-                return mesh;
-            }
-        }
-        for (const Opening& opening : building_.openings) {
-            if (opening.frame != index) continue;
-            mesh.add(pieces_of_frame(building_, opening));
-            return mesh;
-        }
-        // A passage is the hole that it is.
-        if (component.label != Label::unknown) mesh.add(pieces_of(component.polygon));
+        mesh.add(pieces_of_component(building_, index));
         return mesh;
     }
 

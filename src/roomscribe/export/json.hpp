@@ -10,6 +10,7 @@
 
 #include <Eigen/Core>
 
+#include "roomscribe/model/correction.hpp"
 #include "roomscribe/model/registration_result.hpp"
 #include "roomscribe/model/scene.hpp"
 
@@ -52,6 +53,12 @@ struct RegistrationRecord {
 /// `path`, as scene_from_json does, also for a link or component of a scan that is not listed.
 RegistrationRecord registration_from_json(std::string_view text,
                                           const std::string& path = "registration.json");
+
+/// Reads corrections.json (docs/formats.md), with coordinates as the file has them. Throws IoError,
+/// which names `path`, as scene_from_json does: also for an element without a shape, a size that
+/// does not fit it, and an action that is none.
+std::vector<Correction> corrections_from_json(std::string_view text,
+                                              const std::string& path = "corrections.json");
 
 /// Any JSON text, laid out to be read: an array without objects or nested arrays stays on one line,
 /// all else is indented by two blanks. Keys keep their order. Throws InvalidArgument if the text is

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <utility>
@@ -9,6 +10,7 @@
 
 #include "roomscribe/core/error.hpp"
 #include "roomscribe/export/json.hpp"
+#include "roomscribe/geometry/polygon.hpp"
 
 namespace roomscribe {
 namespace {
@@ -298,6 +300,43 @@ void read(const Node& node, RegistrationLink& link) {
         read(*rival, link.rivals.emplace_back());
 }
 
+void read(const Node& node, CorrectionAction& action) {
+    constexpr std::array<std::string_view, 4> names{"pin", "reject", "relabel", "set_size"};
+    const auto* const name = std::find(names.begin(), names.end(), node.text());
+    if (name == names.end())
+        node.fail("\"" + node.text() + "\" is not pin, reject, relabel or set_size");
+    action = static_cast<CorrectionAction>(name - names.begin());
+}
+
+/// An element as scene.json has it; of its keys only these count.
+void read_element(const Node& node, Component& element) {
+    read(node.at("label"), element.label);
+    read_if_present(node, "kind", element.kind);
+    read_if_present(node, "parent", element.parent);
+    read_if_present(node, "polygon", element.polygon);
+    if (const std::optional<Node> box = node.find("box")) read(*box, element.box.emplace());
+    if (const std::optional<Node> grasp = node.find("grasp")) read(*grasp, element.grasp.emplace());
+    if (!element.box && element.polygon.size() < 3) node.fail("has neither a polygon nor a box");
+    if (!element.box && !(area_vector(element.polygon).norm() > 0.0))
+        node.fail("has a polygon without area");
+}
+
+void read(const Node& node, Correction& correction) {
+    read(node.at("action"), correction.action);
+    read_element(node.at("element"), correction.element);
+    if (correction.action == CorrectionAction::relabel) {
+        read(node.at("label"), correction.label);
+        read_if_present(node, "kind", correction.kind);
+    }
+    if (correction.action == CorrectionAction::set_size) {
+        const std::vector<Node> sizes = node.at("size").elements(correction.element.box ? 3 : 2);
+        for (const Node& size : sizes) {
+            correction.size.push_back(size.number());
+            if (!(correction.size.back() > 0.0)) size.fail("must be greater than 0");
+        }
+    }
+}
+
 Json parse(std::string_view text, const DocumentName& name) {
     try {
         return Json::parse(text);
@@ -330,6 +369,16 @@ Scene scene_from_json(std::string_view text, const std::string& path) {
     read_if_present(document, "components", scene.components);
     read_if_present(document, "rooms", scene.rooms);
     return scene;
+}
+
+std::vector<Correction> corrections_from_json(std::string_view text, const std::string& path) {
+    const DocumentName name{path, "corrections JSON"};
+    const Json json = parse(text, name);
+    const Node document(json, name);
+    require_format(document, "roomscribe-corrections");
+    std::vector<Correction> corrections;
+    read(document.at("corrections"), corrections);
+    return corrections;
 }
 
 RegistrationRecord registration_from_json(std::string_view text, const std::string& path) {

@@ -130,4 +130,17 @@ std::vector<SpacePolygon> pieces_of_frame(const Building& building, const Openin
     return frame.up(without_rectangles(convex_pieces(frame.down(polygon)), holes));
 }
 
+std::vector<SpacePolygon> pieces_of_component(const Building& building, std::size_t index) {
+    const Component& component = building.scene.components[index];
+    for (std::size_t wall = 0; wall < building.walls.size(); ++wall) {
+        const auto& faces = building.walls[wall].faces;
+        for (std::size_t face = 0; face < faces.size(); ++face)
+            if (faces[face].component == index) return pieces_of_face(building, wall, face);
+    }
+    for (const Opening& opening : building.openings)
+        if (opening.frame == index) return pieces_of_frame(building, opening);
+    if (component.label == Label::unknown) return {};
+    return pieces_of(component.polygon);
+}
+
 }  // namespace roomscribe

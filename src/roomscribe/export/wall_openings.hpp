@@ -26,4 +26,8 @@ std::vector<SpacePolygon> pieces_of_face(const Building& building, std::size_t w
 /// A frame without the door or window in it.
 std::vector<SpacePolygon> pieces_of_frame(const Building& building, const Opening& opening);
 
+/// What is to be drawn of a flat component: a wall and a frame without what is in them. Empty for a
+/// passage, which is the hole that it is.
+std::vector<SpacePolygon> pieces_of_component(const Building& building, std::size_t component);
+
 }  // namespace roomscribe

@@ -82,10 +82,7 @@ void require_points(const fs::path& path, std::size_t num_points, const GroundTr
          "give a result of the scans, or of the map, that the truth belongs to");
 }
 
-PointLabels read_point_labels(const fs::path& path, const GroundTruth& truth,
-                              const Context& context) {
-    const PointCloud cloud = read_scan(path, context).cloud;
-    require_points(path, cloud.size(), truth);
+PointLabels labels_of(const fs::path& path, const PointCloud& cloud) {
     PointLabels labels;
     for (const std::int32_t id : integers(path, require_channel(path, cloud, "label"))) {
         if (id < 0 || id >= static_cast<std::int32_t>(num_labels))
@@ -97,6 +94,13 @@ PointLabels read_point_labels(const fs::path& path, const GroundTruth& truth,
     if (confidence != nullptr && confidence->type == ScalarType::float32 && confidence->count == 1)
         labels.confidences = values_as<float, float>(*confidence);
     return labels;
+}
+
+PointLabels read_point_labels(const fs::path& path, const GroundTruth& truth,
+                              const Context& context) {
+    const PointCloud cloud = read_scan(path, context).cloud;
+    require_points(path, cloud.size(), truth);
+    return labels_of(path, cloud);
 }
 
 std::vector<std::optional<Transform>> read_result_poses(const fs::path& path,
@@ -155,6 +159,25 @@ Prediction read_result_folder(const fs::path& folder, const GroundTruth& truth,
                                                -truth.map.cloud.global_shift);
     }
     return prediction;
+}
+
+Reconstruction read_reconstruction(const fs::path& folder, const Context& context) {
+    const bool has_labels = fs::exists(folder / "labels.ply");
+    const fs::path points_path = folder / (has_labels ? "labels.ply" : "map.ply");
+    if (!fs::exists(points_path)) {
+        fail(folder, "holds neither labels.ply nor map.ply",
+             "give the output folder of roomscribe run, register or interpret");
+    }
+    Reconstruction reconstruction;
+    reconstruction.map.cloud = read_scan(points_path, context).cloud;
+    const PointCloud& cloud = reconstruction.map.cloud;
+    if (!has_labels) return reconstruction;
+    reconstruction.labels = labels_of(points_path, cloud);
+    const fs::path scene_path = folder / "scene.json";
+    const MappedFile file(scene_path, "scene JSON");
+    reconstruction.scene =
+        in_file_coordinates(scene_from_json(file.text(), scene_path.string()), -cloud.global_shift);
+    return reconstruction;
 }
 
 GroundTruth read_labelled_cloud(const fs::path& path, const LabelConvention& convention,

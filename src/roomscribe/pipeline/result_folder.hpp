@@ -7,6 +7,7 @@
 #include "roomscribe/evaluation/label_conventions.hpp"
 #include "roomscribe/evaluation/prediction.hpp"
 #include "roomscribe/model/ground_truth.hpp"
+#include "roomscribe/pipeline/reconstruct.hpp"
 
 namespace roomscribe {
 
@@ -17,6 +18,11 @@ namespace roomscribe {
 /// together, or a file does not fit the truth: other points or another number of scans.
 Prediction read_result_folder(const std::filesystem::path& folder, const GroundTruth& truth,
                               const Context& context = {});
+
+/// Reads the map of a result with its labels and scene, where it has them: what is needed to show
+/// it. Registration, sections and costs stay empty. Throws IoError as read_result_folder does.
+Reconstruction read_reconstruction(const std::filesystem::path& folder,
+                                   const Context& context = {});
 
 /// Reads a cloud that was labelled by hand, with integer channels (int8 excepted) `label` (or
 /// `class`) and, where it has them, `instance`. Throws IoError if it has no such label.

@@ -11,10 +11,14 @@
 #include "roomscribe/core/units.hpp"
 #include "roomscribe/io/atomic_file.hpp"
 #include "roomscribe/report/html_text.hpp"
+#include "roomscribe/report/report_drawings.hpp"
 #include "roomscribe/report/report_figures.hpp"
 #include "roomscribe/report/report_style.hpp"
 #include "roomscribe/report/report_tables.hpp"
 #include "roomscribe/report/report_views.hpp"
+#include "roomscribe/report/viewer_bundle.hpp"
+#include "roomscribe/report/viewer_model.hpp"
+#include "roomscribe/report/viewer_points.hpp"
 
 namespace roomscribe {
 namespace {
@@ -220,6 +224,26 @@ std::string settings_part(const RunRecord& run) {
                            : changed;
 }
 
+/// Where the 3D view goes, and what it shows; the program that draws it comes last on the page.
+std::string viewer_part(const Reconstruction& reconstruction, std::size_t budget,
+                        const Context& context) {
+    if (budget == 0 || reconstruction.map.cloud.empty()) return {};
+    if (viewer_script().empty()) {
+        return "<p class=\"note\">This roomscribe was built without its 3D view, which needs npm "
+               "once: <code>./dev viewer</code>, then <code>./dev build</code>.</p>\n";
+    }
+    const GriddedPoints points = grid_points(reconstruction, scanned_box(reconstruction), context);
+    const std::vector<std::uint32_t> chosen = thin_points(points, budget);
+    const std::string packed = pack_points(reconstruction, points, chosen);
+    std::string html =
+        "<div id=\"viewer\"><p class=\"note\">The 3D view needs JavaScript.</p></div>\n";
+    html += fmt::format("<script type=\"application/json\" id=\"viewer-model\">{}</script>\n",
+                        viewer_model_json(reconstruction, points, chosen.size()));
+    html += fmt::format("<script type=\"text/plain\" id=\"viewer-points\">{}</script>\n",
+                        encode_base64(std::as_bytes(std::span(packed))));
+    return html;
+}
+
 }  // namespace
 
 std::string render_html_report(const Reconstruction& reconstruction, const ReportInfo& info,
@@ -235,7 +259,10 @@ std::string render_html_report(const Reconstruction& reconstruction, const Repor
     html += key_figures(reconstruction);
     html += check_list(reconstruction);
     html += section("Other maps", maps_apart(reconstruction));
+    html += section("3D view", viewer_part(reconstruction, info.viewer_points, context));
     html += section("Pictures", pictures(reconstruction, info.picture_width, context));
+    html += section("Drawings", floor_plan_drawing(reconstruction.scene));
+    html += section("Elevations", wall_elevations(reconstruction.scene));
     html += section("Furniture", furniture_figures(reconstruction, context));
     html += section("Rooms", rooms_table(reconstruction));
     html += section("Components", components_table(reconstruction));
@@ -245,14 +272,17 @@ std::string render_html_report(const Reconstruction& reconstruction, const Repor
     html += section("Settings", settings_part(run));
     html += section("Cost", stages_table(reconstruction));
     html += section("Input files", inputs_table(run));
-    html += fmt::format(
-        "</main>\n<footer>roomscribe {}{}</footer>\n<script>{}</script>\n</body>\n</html>\n",
-        escape_html(run.version),
-        run.num_threads > 0
-            ? fmt::format(" &#183; {}",
-                          counted(static_cast<std::size_t>(run.num_threads), "thread"))
-            : std::string(),
-        report_script());
+    html +=
+        fmt::format("</main>\n<footer>roomscribe {}{}</footer>\n<script>{}</script>\n",
+                    escape_html(run.version),
+                    run.num_threads > 0
+                        ? fmt::format(" &#183; {}",
+                                      counted(static_cast<std::size_t>(run.num_threads), "thread"))
+                        : std::string(),
+                    report_script());
+    if (html.find("<div id=\"viewer\">") != std::string::npos)
+        html += "<script>" + viewer_script() + "</script>\n";
+    html += "</body>\n</html>\n";
     return html;
 }
 

@@ -56,6 +56,15 @@ figcaption span { color: var(--soft); }
 .pieces figure { margin-bottom: 2rem; }
 .pieces .scale { display: none; }
 .pieces .plot { max-width: max(11rem, calc(var(--aspect) * 22rem)); }
+.drawing { display: block; max-width: 100%; height: auto; background: #fff; border-radius: .3rem; }
+.elevations { display: flex; flex-wrap: wrap; gap: 0 2rem; align-items: flex-end; }
+.elevations figure { margin: 0 0 2rem; max-width: 100%; }
+.elevations figcaption { margin: 0 0 .4rem; }
+.elevation { display: block; max-width: 100%; height: auto; }
+.elevation .face { fill: var(--panel); stroke: var(--ink); stroke-width: .25; }
+.elevation .opening { fill: var(--page); stroke-width: .45; }
+.elevation line { stroke: var(--soft); stroke-width: .15; }
+.elevation text { fill: var(--ink); font-size: 2.5px; }
 .frame { position: relative; margin: 0 0 1.9rem 2.6rem; }
 .canvas { position: relative; aspect-ratio: var(--aspect); background: var(--panel);
   border-radius: .3rem; overflow: hidden; }
@@ -146,7 +155,7 @@ footer { margin-top: 4.5rem; padding-top: 1.25rem; border-top: 1px solid var(--l
   @page { margin: 16mm 14mm; }
   body { padding: 0; max-width: none; font-size: 10pt; }
   h2 { margin-top: 2.5rem; break-after: avoid; }
-  figure, tr, .checks, .figures { break-inside: avoid; }
+  #viewer, figure, tr, .checks, .figures { break-inside: avoid; }
   .scroll { overflow: visible; }
   .plot { max-width: calc(var(--aspect) * 32rem); }
   table { font-size: 8pt; }
