@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 #include "roomscribe/core/quantile.hpp"
@@ -114,6 +115,66 @@ void count_clutter(AxisProfile& profile, const SurfaceSample& sample,
     }
 }
 
+/// Share of a patch's voxels that have other surface across the axis a room's height over or under
+/// them. `heights` are level_heights() in squares of plan_cell.
+double covered_share(const PlanarPatch& patch, const SurfaceSample& sample,
+                     std::span<const std::pair<PlanCell, float>> heights,
+                     const Eigen::Vector3d& axis) {
+    const PlaneAxes plan = plane_axes(axis);
+    const auto direction = axis.cast<float>();
+    const auto by_cell = [](const auto& a, const auto& b) { return a.first < b.first; };
+    std::size_t num_covered = 0;
+    for (const std::uint32_t number : patch.points) {
+        const Eigen::Vector3f& point = sample.cloud.positions[number];
+        const auto height = static_cast<double>(point.dot(Eigen::Vector3f(direction)));
+        const auto [first, last] =
+            std::equal_range(heights.begin(), heights.end(),
+                             std::pair(plan_cell_of(point, plan, plan_cell), 0.0F), by_cell);
+        const double lowest = static_cast<double>(first->second);
+        const double highest = static_cast<double>((last - 1)->second);
+        if (std::max(height - lowest, highest - height) >= min_storey_height) ++num_covered;
+    }
+    return static_cast<double>(num_covered) / static_cast<double>(patch.points.size());
+}
+
+void set_extent(AxisProfile& profile, std::vector<float> heights) {
+    profile.bottom = static_cast<double>(quantile(heights, 0.01));
+    profile.top = static_cast<double>(quantile(heights, 0.99));
+}
+
+/// Leaves out what is lower, or higher, than all that has level surface a room's height over or
+/// under it: the ground and the roofs that are seen through the windows of an upper storey. Where
+/// little has, as where no ceiling was seen, all stays.
+void drop_outdoors(AxisProfile& profile, const SurfaceSample& sample,
+                   std::span<const PlanarPatch> patches, const Eigen::Vector3d& axis) {
+    const auto heights = level_heights(profile, sample, patches, axis, plan_cell);
+    std::optional<double> low;
+    std::optional<double> high;
+    double covered_area = 0.0;
+    for (const LevelPatch& patch : profile.patches) {
+        if (covered_share(patches[patch.number], sample, heights, axis) < level_share) continue;
+        covered_area += patch.area;
+        low = std::min(low.value_or(patch.height), patch.height);
+        high = std::max(high.value_or(patch.height), patch.height);
+    }
+    if (!low || 2.0 * covered_area < profile.area) return;
+    const double bottom = *low - level_thickness;
+    const double top = *high + level_thickness;
+    std::erase_if(profile.patches, [&](const LevelPatch& patch) {
+        return patch.height < bottom || patch.height > top;
+    });
+    std::vector<float> indoors;
+    std::copy_if(profile.planar_heights.begin(), profile.planar_heights.end(),
+                 std::back_inserter(indoors), [&](float height) {
+                     return static_cast<double>(height) >= bottom &&
+                            static_cast<double>(height) <= top;
+                 });
+    set_extent(profile, std::move(indoors));
+    profile.area = 0.0;
+    for (const LevelPatch& patch : profile.patches)
+        profile.area += patch.area;
+}
+
 /// Share of the surface whose normal is neither along nor across the axis.
 double slanted_share(const SurfaceSample& sample, const Eigen::Vector3d& axis) {
     const auto direction = axis.cast<float>();
@@ -205,8 +266,8 @@ AxisProfile profile_along(const Eigen::Vector3d& axis, const SurfaceSample& samp
     profile.slanted_share = slanted_share(sample, axis);
     std::stable_sort(profile.patches.begin(), profile.patches.end(),
                      [](const LevelPatch& a, const LevelPatch& b) { return a.height < b.height; });
-    profile.bottom = static_cast<double>(quantile(profile.planar_heights, 0.01));
-    profile.top = static_cast<double>(quantile(profile.planar_heights, 0.99));
+    set_extent(profile, profile.planar_heights);
+    drop_outdoors(profile, sample, patches, axis);
     find_low_level(profile);
     reverse(profile);
     find_low_level(profile);

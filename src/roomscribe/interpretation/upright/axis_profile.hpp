@@ -54,8 +54,8 @@ struct AxisProfile {
     std::optional<double> high;
     double low_area = 0.0;
     double high_area = 0.0;
-    double bottom = 0.0;                ///< 1 % of the surface is lower
-    double top = 0.0;                   ///< 1 % of the surface is higher
+    double bottom = 0.0;                ///< 1 % of the surface indoors is lower
+    double top = 0.0;                   ///< 1 % of it is higher
     std::vector<float> planar_heights;  ///< of the voxels of patches
     double clutter_below = 0.0;         ///< voxels of no patch in the lower half of the height
     double clutter_above = 0.0;
