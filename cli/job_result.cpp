@@ -304,13 +304,7 @@ std::string missing_result(const Reconstruction& reconstruction) {
             return "no scan could be joined to the first: the scans must share part of the room";
         }
     }
-    const auto& components = reconstruction.scene.components;
-    const bool shows_room =
-        std::any_of(components.begin(), components.end(), [](const Component& component) {
-            return component.label == Label::floor || component.label == Label::ceiling ||
-                   component.label == Label::wall;
-        });
-    if (is_interpreted(reconstruction) && !shows_room) {
+    if (is_interpreted(reconstruction) && reconstruction.scene.components.empty()) {
         return "no floor, ceiling or wall was found: the scan must show large plane surfaces";
     }
     return "";

@@ -59,7 +59,8 @@ class ComponentBuilder {
                 break;
             case OpeningType::door:
             case OpeningType::passage:
-                push(opening.type == OpeningType::door ? Label::door : Label::unknown, hole, opening.depth);
+                push(opening.type == OpeningType::door ? Label::door : Label::unknown, hole,
+                     opening.depth);
                 push(Label::door_frame, hole.grown(width, 0.0, width), casing_width);
                 connect(opening, layout, components[opening.components[0]].id);
                 break;

@@ -58,11 +58,11 @@ struct Openings {
 ///
 /// Each wall's face is looked at cell by cell (measure_wall_relief). A hole (find_wall_holes) at
 /// the floor as high as a door is a door, closed where a leaf fills it. Where no leaf was seen, it
-/// is a passage if wider than any single leaf, and a doubtful door if not. A hole above the floor that shows signs of glass, or is like one that
-/// does, is a window, but for mirrors, which `rays` tell (MirrorTest). Closed leaves nearly in the
-/// plane of their wall are found by find_flat_doors. What opens to both sides of a wall is one
-/// opening. Instances are counted on from `surfaces`, whose rooms learn their neighbours and whose
-/// walls learn how much of them is hidden.
+/// is a passage if wider than any single leaf, and a doubtful door if not. A hole above the floor
+/// that shows signs of glass, or is like one that does, is a window, but for mirrors, which `rays`
+/// tell (MirrorTest). Closed leaves nearly in the plane of their wall are found by find_flat_doors.
+/// What opens to both sides of a wall is one opening. Instances are counted on from `surfaces`,
+/// whose rooms learn their neighbours and whose walls learn how much of them is hidden.
 Openings find_openings(const ScanMap& map, std::span<const Ray> rays, const SurfaceSample& sample,
                        std::span<const PlanarPatch> patches, RoomSurfaces& surfaces,
                        const Eigen::Matrix3d& room_from_map, double point_spacing,
