@@ -137,7 +137,6 @@ class Corrector {
     std::string free_id(Label label) const {
         for (std::size_t number = 1;; ++number) {
             std::string id = fmt::format("{}-{}", label_name(label), number);
-            std::replace(id.begin(), id.end(), '_', '-');
             const auto has_it = [&id](const Component& component) { return component.id == id; };
             if (std::none_of(scene_.components.begin(), scene_.components.end(), has_it)) return id;
         }
