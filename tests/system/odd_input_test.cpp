@@ -224,12 +224,17 @@ TEST(OddInput, ManyOutliersAreRightOrInDoubt) {
     }
 }
 
-TEST(OddInput, NoiseOfTenCentimetresStillGivesTheRoom) {
+/// The room from two places, with so much noise, in m, in every coordinate.
+std::vector<Scan> scan_with_noise(double noise, std::uint64_t seed) {
     std::vector<Scan> scans = scan_l_shaped_room(2);
-    Random random(4);
+    Random random(seed);
     for (Scan& scan : scans)
-        add_noise(scan.cloud.positions, 0.1, random);
-    const Outcome outcome = run(scans);
+        add_noise(scan.cloud.positions, noise, random);
+    return scans;
+}
+
+TEST(OddInput, NoiseOfTenCentimetresStillGivesTheRoom) {
+    const Outcome outcome = run(scan_with_noise(0.1, 4));
     EXPECT_EQ(outcome.exit_code, 0);
     expect_true_poses(outcome, {0, 1}, 0.15);
     for (const json& room : outcome.scene.at("rooms"))
@@ -237,11 +242,7 @@ TEST(OddInput, NoiseOfTenCentimetresStillGivesTheRoom) {
 }
 
 TEST(OddInput, NoiseThatHidesTheRoomGivesNoRoom) {
-    std::vector<Scan> scans = scan_l_shaped_room(2);
-    Random random(5);
-    for (Scan& scan : scans)
-        add_noise(scan.cloud.positions, 0.3, random);
-    const Outcome outcome = run(scans);
+    const Outcome outcome = run(scan_with_noise(0.3, 5));
     EXPECT_EQ(outcome.exit_code, 4);
     EXPECT_NE(verdict_of(outcome, 0), "accepted");
     expect_all_in_doubt(outcome);

@@ -211,7 +211,6 @@ double PlanDrawer::blind_radius(std::span<const Ray> rays) const {
 /// Scanners stand indoors, on a floor: what rays pass through around one is indoors, also where it
 /// cannot look down.
 void PlanDrawer::mark_blind() {
-    constexpr std::uint32_t min_rays = 2;
     for (std::size_t first = 0; first < rays_.size();) {
         std::size_t end = first + 1;
         while (end < rays_.size() && rays_[end].origin == rays_[first].origin)
@@ -220,7 +219,7 @@ void PlanDrawer::mark_blind() {
         const double radius = blind_radius(rays_.subspan(first, end - first));
         first = end;
         for (std::size_t cell = 0; cell < cells_.size(); ++cell) {
-            if (cells_[cell].num_rays >= min_rays &&
+            if (cells_[cell].num_rays >= min_cell_rays &&
                 (plan_.middle_of(cell) - origin).norm() <= radius)
                 cells_[cell].is_blind = true;
         }
@@ -231,12 +230,11 @@ void PlanDrawer::mark_blind() {
 std::vector<bool> PlanDrawer::find_inside() const {
     // Lamps, tables and what else hides both floor and ceiling.
     const int reach = static_cast<int>(std::lround(0.5 / plan_.cell_size()));
-    constexpr std::uint32_t min_rays = 2;
     std::vector<bool> inside(cells_.size(), false);
     for (std::size_t cell = 0; cell < cells_.size(); ++cell) {
         if (plan_.has_level[cell] || cells_[cell].is_blind) {
             inside[cell] = true;
-        } else if (cells_[cell].is_occupied || cells_[cell].num_rays >= min_rays) {
+        } else if (cells_[cell].is_occupied || cells_[cell].num_rays >= min_cell_rays) {
             bool is_near = false;
             plan_.for_each_neighbor(cell, reach, [&](std::size_t other) {
                 is_near = is_near || plan_.has_level[other];

@@ -6,6 +6,9 @@
 
 namespace roomscribe {
 
+/// A cell that fewer rays passed through may owe them to stray points.
+inline constexpr std::uint32_t min_cell_rays = 2;
+
 /// What a cell of a FloorPlan is known to be, while the plan is drawn.
 struct PlanCell {
     std::uint32_t num_rays = 0;

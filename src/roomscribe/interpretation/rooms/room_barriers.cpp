@@ -105,7 +105,6 @@ template <typename PlaceOf>
 bool BarrierDrawer::is_beam(std::span<const std::uint64_t> slices, const PlaceOf& place_of) const {
     constexpr double min_length = 1.1;  // m, corridors are wider, the lintels of doors are not
     if (static_cast<double>(slices.size()) * plan_.cell_size() < min_length) return false;
-    constexpr std::uint32_t min_rays = 2;
     constexpr double stray_share = 0.1;
     constexpr double min_open_share = 0.5;
     std::size_t num_solid = 0;
@@ -114,7 +113,7 @@ bool BarrierDrawer::is_beam(std::span<const std::uint64_t> slices, const PlaceOf
         num_solid += (slices[i] & body_slices) != 0 ? 1 : 0;
         const auto cell = plan_.cell_at(place_of(static_cast<double>(i) + 0.5));
         const bool is_open =
-            cell && (cells_[*cell].num_rays >= min_rays || cells_[*cell].has_floor);
+            cell && (cells_[*cell].num_rays >= min_cell_rays || cells_[*cell].has_floor);
         num_open += is_open ? 1 : 0;
     }
     const auto count = static_cast<double>(slices.size());
