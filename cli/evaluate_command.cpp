@@ -35,7 +35,8 @@ Evaluation evaluate(const EvaluateOptions& options, const Context& context) {
         return compare(read_truth_folder(options.truth, context), protocol::every_label);
     }
     const std::optional<LabelConvention> convention = find_label_convention(options.convention);
-    if (!convention) throw UsageError("--convention must be s3dis, not " + options.convention);
+    if (!convention)
+        throw UsageError("--convention must be s3dis or nyu40, not " + options.convention);
     const GroundTruth truth = read_labelled_cloud(options.truth, *convention, context);
     const bool has_instances = std::any_of(truth.instances.begin(), truth.instances.end(),
                                            [](std::int32_t instance) { return instance >= 0; });
@@ -72,7 +73,8 @@ void add_evaluate_command(CLI::App& program, Action& action) {
     verb.add_option("RESULT", options->result, "The output folder of run, register or interpret")
         ->type_name("")
         ->required();
-    verb.add_option("--convention", options->convention, "What the labels of the cloud mean: s3dis")
+    verb.add_option("--convention", options->convention,
+                    "What the labels of the cloud mean: s3dis or nyu40")
         ->type_name("NAME");
     CLI::Option* json = verb.add_flag("--json", options->as_json,
                                       "Print JSON, with every component, scan and link");

@@ -41,6 +41,68 @@ constexpr std::array<ForeignClass, 13> s3dis_classes{{
 // Its doors and windows are points without a rectangle, their frames and handles part of them.
 constexpr LabelConvention s3dis{"s3dis", s3dis_classes, protocol::instance_labels};
 
+/// What holds things of several labels, or what our labels leave open.
+constexpr ForeignClass mixed(std::string_view name) {
+    return {name, L::unknown, protocol::every_label};
+}
+constexpr ForeignClass piece(std::string_view name) {
+    return {name, L::furniture, furniture_with_handles};
+}
+constexpr ForeignClass thing(std::string_view name) {
+    return {name, L::unknown, labels(L::unknown)};
+}
+
+constexpr std::array<ForeignClass, 41> nyu40_classes{{
+    mixed("unlabelled"),
+    {"wall", L::wall, labels(L::wall)},
+    {"floor", L::floor, labels(L::floor)},
+    piece("cabinet"),
+    piece("bed"),
+    piece("chair"),
+    piece("sofa"),
+    piece("table"),
+    {"door", L::door, labels(L::door, L::door_frame, L::handle)},
+    {"window", L::window, labels(L::window, L::window_frame)},
+    piece("bookshelf"),
+    thing("picture"),
+    piece("counter"),
+    // Blinds and curtains hang before the window or before the wall beside it.
+    mixed("blinds"),
+    piece("desk"),
+    piece("shelves"),
+    mixed("curtain"),
+    piece("dresser"),
+    // Lies on a bed or a sofa, as part of it in many scans.
+    mixed("pillow"),
+    thing("mirror"),
+    {"floor mat", L::floor, labels(L::floor, L::unknown)},
+    thing("clothes"),
+    {"ceiling", L::ceiling, labels(L::ceiling)},
+    mixed("books"),
+    piece("refrigerator"),
+    thing("television"),
+    thing("paper"),
+    thing("towel"),
+    thing("shower curtain"),
+    thing("box"),
+    thing("whiteboard"),
+    thing("person"),
+    piece("night stand"),
+    // Fixed to the building: whether they are furniture is a matter of taste.
+    mixed("toilet"),
+    mixed("sink"),
+    thing("lamp"),
+    mixed("bathtub"),
+    thing("bag"),
+    mixed("other structure"),
+    mixed("other furniture"),
+    mixed("other prop"),
+}};
+
+// Its instances are objects; walls and floors are cut where the annotators' segments happened to
+// end.
+constexpr LabelConvention nyu40{"nyu40", nyu40_classes, labels(L::furniture)};
+
 constexpr ForeignClass unknown_class{"", L::unknown, protocol::every_label};
 
 const ForeignClass& class_of(const LabelConvention& convention, std::int32_t number) {
@@ -82,7 +144,8 @@ void require_size(const char* what, std::size_t size, std::size_t expected) {
 }  // namespace
 
 std::optional<LabelConvention> find_label_convention(std::string_view name) {
-    if (name == s3dis.name) return s3dis;
+    for (const LabelConvention& convention : {s3dis, nyu40})
+        if (name == convention.name) return convention;
     return std::nullopt;
 }
 

@@ -28,7 +28,8 @@ struct LabelConvention {
     LabelSet detected_labels = 0;
 };
 
-/// "s3dis" (Armeni et al. 2016), the 13 classes in their usual order. Empty for an unknown name.
+/// "s3dis" (Armeni et al. 2016), the 13 classes in their usual order; "nyu40" (Gupta et al. 2013),
+/// the 40 classes that ScanNet's labels use, 0 unlabelled. Empty for an unknown name.
 std::optional<LabelConvention> find_label_convention(std::string_view name);
 
 /// Truth of a labelled cloud: a component per instance of a class of detected_labels, without

@@ -46,6 +46,19 @@ TEST(LabelConventions, S3disHasItsThirteenClasses) {
     EXPECT_FALSE(find_label_convention("S3DIS-2"));
 }
 
+TEST(LabelConventions, Nyu40HasItsFortyClassesAndZero) {
+    const LabelConvention nyu40 = *find_label_convention("nyu40");
+    ASSERT_EQ(nyu40.classes.size(), 41U);
+    for (const ForeignClass& foreign : nyu40.classes)
+        EXPECT_TRUE(protocol::contains(foreign.acceptable, foreign.label)) << foreign.name;
+    EXPECT_EQ(nyu40.classes[8].name, "door");
+    EXPECT_EQ(nyu40.classes[14].name, "desk");
+    EXPECT_EQ(nyu40.classes[22].label, Label::ceiling);
+    EXPECT_EQ(nyu40.classes[24].name, "refrigerator");
+    EXPECT_EQ(nyu40.classes[30].name, "whiteboard");
+    EXPECT_EQ(nyu40.classes[39].acceptable, protocol::every_label);
+}
+
 TEST(LabelConventions, MakeAComponentOfEveryInstanceOfItsClass) {
     // Instances that are counted anew in every class.
     const GroundTruth truth = truth_of(
