@@ -23,6 +23,7 @@
 #include "roomscribe/pipeline/scoring.hpp"
 #include "roomscribe/pipeline/truth_folder.hpp"
 #include "roomscribe/pipeline/workspace.hpp"
+#include "roomscribe/preprocessing/line_center.hpp"
 #include "roomscribe/report/html_report.hpp"
 
 namespace roomscribe::cli {
@@ -178,6 +179,7 @@ JobInput load_scans(std::span<const std::string> paths, const Context& context) 
             const bool several = stored.scan.name != std::filesystem::path(path).filename();
             require_usable(several ? path + " (" + stored.scan.name + ")" : path,
                            stored.scan.cloud);
+            locate_scanner(stored.scan);
             // One shift serves all files.
             if (input.scans.empty()) input.map_shift = stored.map_shift;
             if (stored.map_from_scan) {

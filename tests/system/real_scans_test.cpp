@@ -158,8 +158,12 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         // The scanner was tilted by an unknown angle.
         // Two pieces of its back wall, which lean differently in the scan, are one wall.
-        RealRoom{"Office", "rooms/3dsmart_dlut/A601.pcd", 1, 2, 12, Eigen::Vector3d::Zero()},
-        RealRoom{"Laboratory", "rooms/3dsmart_dlut/A605.pcd", 1, 3, 15, Eigen::Vector3d::Zero()},
+        RealRoom{"Office", "rooms/3dsmart_dlut/A601.pcd", 1, 4, 12, Eigen::Vector3d::Zero()},
+        // Furniture before the scanner hides nearly all of the floor.
+        RealRoom{"HiddenFloor", "rooms/3dsmart_dlut/A603.pcd", 1, 4, 12, Eigen::Vector3d::Zero()},
+        RealRoom{"Laboratory", "rooms/3dsmart_dlut/A605.pcd", 1, 4, 15, Eigen::Vector3d::Zero()},
+        // The laser stood 0.86 m above the origin.
+        RealRoom{"Piers", "rooms/3dsmart_dlut/A619.pcd", 1, 4, 12, Eigen::Vector3d::Zero()},
         // Its back wall leans by 12 degrees in the scan.
         RealRoom{"BentWalls", "rooms/3dsmart_dlut/A617.pcd", 1, 2, 15, Eigen::Vector3d::Zero()},
         RealRoom{"Studio", "rooms/scannet_scene0000/scene0000_00_labels.ply", 1, 8, 35,

@@ -360,18 +360,26 @@ void PlanDrawer::choose_rooms() {
     constexpr double min_floor_share = 0.1;  // under furniture a floor shows as much
     constexpr double min_closed_share = 0.5;
     const bool knows_scanners = !sample_.sensor_positions.empty();
-    std::vector<std::int32_t> number(counts.size(), no_room);
-    plan_.rooms.clear();
-    for (std::size_t i = 0; i < counts.size(); ++i) {
-        const Count& count = counts[i];
-        // Of the room of a camera before a wall it may be that no more is seen.
-        if (count.cells * cell_area < min_room_area && !count.holds_scanner) continue;
-        const bool has_ceiling = count.ceiling >= min_level_share * count.cells &&
-                                 (!storey_.floor || count.floor >= min_floor_share * count.cells);
+    int most_ceiling = 0;
+    for (const Count& count : counts)
+        most_ceiling = std::max(most_ceiling, count.ceiling);
+    const auto is_room = [&](const Count& count) {
+        if (count.cells * cell_area < min_room_area) return false;
+        // Furniture may hide nearly all of the floor of the one room that was scanned.
+        const bool is_over_floor = !storey_.floor || count.ceiling == most_ceiling ||
+                                   count.floor >= min_floor_share * count.cells;
+        const bool has_ceiling = count.ceiling >= min_level_share * count.cells && is_over_floor;
         const bool is_walled =
             count.floor >= min_level_share * count.cells &&
             (!knows_scanners || count.closed_rim >= min_closed_share * count.rim);
-        if (!count.holds_scanner && !has_ceiling && !is_walled) continue;
+        return count.holds_scanner || has_ceiling || is_walled;
+    };
+    // Of the room of a camera before a wall it may be that next to nothing is seen.
+    const bool is_any = std::any_of(counts.begin(), counts.end(), is_room);
+    std::vector<std::int32_t> number(counts.size(), no_room);
+    plan_.rooms.clear();
+    for (std::size_t i = 0; i < counts.size(); ++i) {
+        if (is_any ? !is_room(counts[i]) : !counts[i].holds_scanner) continue;
         number[i] = static_cast<std::int32_t>(plan_.rooms.size());
         plan_.rooms.emplace_back();
     }
