@@ -13,6 +13,7 @@ inline constexpr std::uint32_t min_cell_rays = 2;
 struct PlanCell {
     std::uint32_t num_rays = 0;
     float ceiling = std::numeric_limits<float>::quiet_NaN();
+    float upright_top = -std::numeric_limits<float>::infinity();  ///< of upright surface seen in it
     bool has_floor = false;
     bool is_occupied = false;  ///< something was seen between floor and ceiling
     bool is_blind = false;     ///< rays passed, but no scanner could look down on the floor there

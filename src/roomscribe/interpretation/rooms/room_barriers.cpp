@@ -20,6 +20,10 @@ constexpr int num_slices = 64;
 /// m. Widest opening that is closed between two pieces of one line where no lintel shows: a door
 /// of 1.1 m and its frame (DIN 18101).
 constexpr double max_door_gap = 1.3;
+/// m. Doors are lower, and what is higher and no wall stands before one.
+constexpr double min_partition_height = 2.0;
+/// m. Wardrobes, with the gap behind them.
+constexpr double max_wardrobe_depth = 1.0;
 /// Of a place on a wall whose top was not seen.
 constexpr int min_slices = 3;
 
@@ -57,6 +61,7 @@ class BarrierDrawer {
           plan_(plan),
           cells_(cells) {}
 
+    void mark_tops(const UprightSurface& surface);
     void draw(const UprightSurface& surface);
 
   private:
@@ -65,6 +70,7 @@ class BarrierDrawer {
     }
     std::optional<double> ceiling_near(const Vector2d& place) const;
     bool has_level_behind(const Vector2d& place, const Vector2d& normal) const;
+    bool stands_alone(const Vector2d& place, const Vector2d& normal, double top) const;
     template <typename PlaceOf>
     bool is_beam(std::span<const std::uint64_t> slices, const PlaceOf& place_of) const;
 
@@ -97,6 +103,30 @@ bool BarrierDrawer::has_level_behind(const Vector2d& place, const Vector2d& norm
     constexpr double farthest = 0.4;
     return plan_.any_along(place, -normal, nearest, farthest,
                            [&](const Vector2d& behind) { return plan_.has_level_at(behind); });
+}
+
+void BarrierDrawer::mark_tops(const UprightSurface& surface) {
+    for (const std::uint32_t patch : surface.patches) {
+        for (const std::uint32_t voxel : patches_[patch].points) {
+            const Vector3d point = in_room(sample_.cloud.positions[voxel]);
+            const auto cell = plan_.cell_at(point.head<2>());
+            if (!cell) continue;
+            float& top = cells_[*cell].upright_top;
+            top = std::max(top, static_cast<float>(point.z()));
+        }
+    }
+}
+
+/// Whether no wall shows above a place's `top` on either side, as one does above a wardrobe.
+bool BarrierDrawer::stands_alone(const Vector2d& place, const Vector2d& normal, double top) const {
+    constexpr double nearest = 0.15;
+    constexpr double clearance = 0.2;
+    const auto is_higher = [&](const Vector2d& beside) {
+        const auto cell = plan_.cell_at(beside);
+        return cell && cells_[*cell].upright_top > top + clearance;
+    };
+    return !plan_.any_along(place, normal, nearest, max_wardrobe_depth, is_higher) &&
+           !plan_.any_along(place, -normal, nearest, max_wardrobe_depth, is_higher);
 }
 
 /// Whether a surface, by what slices were seen in each step along it, is the face of a beam: long,
@@ -160,9 +190,15 @@ void BarrierDrawer::draw(const UprightSurface& surface) {
         const bool has_lintel =
             ceiling &&
             (slices[i] & slices_between(top - settings_.ceiling_reach, top + slice_height)) != 0;
-        const bool is_body = !ceiling && is_high && share_of(slices[i], body_slices) >= 0.6;
+        const bool has_body = share_of(slices[i], body_slices) >= 0.6;
+        const bool is_body = !ceiling && is_high && has_body;
+        const double seen_top = slice_height * (num_slices - std::countl_zero(slices[i]));
+        // Rays would tell what is behind.
+        const bool is_partition = has_body && sample_.sensor_positions.empty() &&
+                                  seen_top >= min_partition_height &&
+                                  stands_alone(place_of(middle), normal, floor_height_ + seen_top);
         const bool is_last = is_tall && std::popcount(slices[i]) >= min_slices && closes(middle);
-        parts[i] = has_lintel || is_body || is_last;
+        parts[i] = has_lintel || is_body || is_partition || is_last;
     }
     // Gaps between two pieces, each long enough not to be a stray.
     const auto max_gap = static_cast<std::size_t>(max_door_gap / step);
@@ -203,6 +239,8 @@ void draw_barriers(std::span<const UprightSurface> surfaces, const SurfaceSample
                    double floor_height, const RoomSurfacesSettings& settings, FloorPlan& plan,
                    std::vector<PlanCell>& cells) {
     BarrierDrawer drawer(sample, patches, room_from_map, floor_height, settings, plan, cells);
+    for (const UprightSurface& surface : surfaces)
+        drawer.mark_tops(surface);
     for (const UprightSurface& surface : surfaces)
         drawer.draw(surface);
 }
