@@ -261,6 +261,10 @@ std::optional<WallOpening> OpeningFinder::judge(std::size_t storey, std::size_t 
     if (evidence.seen + evidence.lost < min_seen) return std::nullopt;
     const bool stands_on_floor = hole.bottom - rooms.floor_height <= max_rail;
     if (!is_framed_by_wall(evidence, stands_on_floor)) return std::nullopt;
+    // Without rays a hole is told from wall that nobody looked at by its lining.
+    constexpr double min_lining = 0.5;
+    const bool is_guess = !relief.has_rays && evidence.through_share >= 0.5;
+    if (is_guess && evidence.framed < min_lining) return std::nullopt;
     opening.room_behind = room_behind(rooms, face, hole);
     const double above_floor = hole.bottom - rooms.floor_height;
     const bool is_closed = evidence.opaque >= 0.6 && evidence.at_depth >= 0.6;
@@ -330,6 +334,7 @@ std::optional<WallOpening> OpeningFinder::judge(std::size_t storey, std::size_t 
     // none of these.
     constexpr double min_sinking = 0.02;
     const bool is_glazed = evidence.lost >= min_lost || evidence.sunk() >= min_sinking ||
+                           is_guess ||
                            (relief.has_rays && evidence.through_share >= min_through);
     // A mirror shows what lies behind it without a frame in the wall, and as often as not where
     // another room is.

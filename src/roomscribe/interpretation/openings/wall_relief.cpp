@@ -15,6 +15,12 @@ constexpr std::size_t max_points = 4'000'000;
 /// m before the face: casings and levers. What lies farther hides the wall.
 constexpr float max_relief = 0.1F;
 
+/// m before the face. Furniture is to 0.9 m deep; where scanners are not known, what stands so near
+/// may have hidden the wall.
+constexpr float max_cover = 1.0F;
+/// Rays that a cell counts for that is open without any being known.
+constexpr std::uint32_t assumed_rays = 2;
+
 /// m. A step down at a door is less; the ground floor lies at least so much over the ground.
 constexpr float below_floor = 0.15F;
 constexpr float farthest_room = 10.0F;
@@ -99,7 +105,16 @@ void place_points(WallRelief& relief, const FaceFrame& frame, std::span<const Ve
             count(relief, point.x(), point.y(), &ReliefCell::surface, point.z());
         } else if (point.z() < -tolerance && point.z() >= -static_cast<float>(max_wall_depth)) {
             count(relief, point.x(), point.y(), &ReliefCell::recess, point.z());
+        } else if (point.z() > max_relief && point.z() <= max_cover) {
+            count(relief, point.x(), point.y(), &ReliefCell::hidden);
         }
+    }
+}
+
+/// Where nothing was seen on the face, in it or before it, there may be a hole.
+void assume_holes(WallRelief& relief) {
+    for (ReliefCell& cell : relief.cells) {
+        if (cell.surface + cell.recess + cell.hidden == 0) cell.through = assumed_rays;
     }
 }
 
@@ -132,6 +147,7 @@ WallRelief measure_wall_relief(const ScanMap& map, const WallFace& face, const E
             place_points(relief, frame, seen, stride);
         }
     }
+    if (!relief.has_rays) assume_holes(relief);
     return relief;
 }
 

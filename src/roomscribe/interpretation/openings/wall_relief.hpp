@@ -45,8 +45,8 @@ struct WallRelief {
     std::vector<ReliefCell> cells;  ///< row by row
     /// How deep the points of `recess` lie: num_depth_bins counts per cell.
     std::vector<std::uint16_t> depths;
-    /// Rays were followed: the scanners are known. Else `through` and `hidden` mean nothing, and
-    /// what lies behind the face counts where it lies.
+    /// Rays were followed: the scanners are known. Else what lies before or behind the face counts
+    /// where it lies, and `through` is a guess: nothing was seen there at all.
     bool has_rays = false;
 
     std::size_t index(int column, int row) const {
