@@ -247,6 +247,31 @@ double measure_framing(const WallRelief& relief, const CellRectangle& hole) {
     return framed / std::max(open, 1.0);
 }
 
+/// Share of the left, right and upper edge of a hole with something behind the face within a cell
+/// of it, as reveals are.
+double measure_lining(const WallRelief& relief, const CellRectangle& hole) {
+    int lined = 0;
+    int count = 0;
+    const auto look = [&](int column, int row, int dx, int dy) {
+        bool is_lined = false;
+        for (int step = -1; step <= 1; ++step) {
+            const int x = column + step * dx;
+            const int y = row + step * dy;
+            if (x < 0 || y < 0 || x >= relief.num_columns || y >= relief.num_rows) continue;
+            is_lined = is_lined || relief.at(x, y).recess > 0;
+        }
+        ++count;
+        lined += is_lined ? 1 : 0;
+    };
+    for (int row = hole.low; row < hole.high; ++row) {
+        look(hole.left, row, 1, 0);
+        look(hole.right - 1, row, 1, 0);
+    }
+    for (int column = hole.left; column < hole.right; ++column)
+        look(column, hole.high - 1, 0, 1);
+    return static_cast<double>(lined) / std::max(1, count);
+}
+
 /// Share of the cells without a return among those that have some beside them.
 double share_of_gaps(const WallRelief& relief, const CellRectangle& area, bool in_hole) {
     double gaps = 0.0;
@@ -342,6 +367,7 @@ HoleEvidence look_into(const WallRelief& relief, const CellRectangle& hole) {
     evidence.lost = measure_losses(relief, hole);
     evidence.depths = measure_depths(relief, hole);
     evidence.framed = measure_framing(relief, hole);
+    evidence.lining = measure_lining(relief, hole);
     return evidence;
 }
 

@@ -42,6 +42,7 @@ struct HoleEvidence {
     /// By side: share of the cells closely around it that are wall, if enough were seen.
     std::array<std::optional<double>, 4> rim;
     double framed = 0.0;  ///< share of the cells along its sides in which rays ended
+    double lining = 0.0;  ///< share of its left, right and upper edge at which wall goes inwards
     /// By how much cells without a return are more frequent among the open ones, as panes leave
     /// them, than in the wall around.
     double lost = 0.0;

@@ -264,7 +264,7 @@ std::optional<WallOpening> OpeningFinder::judge(std::size_t storey, std::size_t 
     // Without rays a hole is told from wall that nobody looked at by its lining.
     constexpr double min_lining = 0.5;
     const bool is_guess = !relief.has_rays && evidence.through_share >= 0.5;
-    if (is_guess && evidence.framed < min_lining) return std::nullopt;
+    if (is_guess && evidence.lining < min_lining) return std::nullopt;
     opening.room_behind = room_behind(rooms, face, hole);
     const double above_floor = hole.bottom - rooms.floor_height;
     const bool is_closed = evidence.opaque >= 0.6 && evidence.at_depth >= 0.6;
@@ -339,7 +339,7 @@ std::optional<WallOpening> OpeningFinder::judge(std::size_t storey, std::size_t 
     // A mirror shows what lies behind it without a frame in the wall, and as often as not where
     // another room is.
     constexpr double min_framed = 0.25;
-    if (evidence.framed < min_framed || is_indoors_behind(rooms, face, hole) ||
+    if ((!is_guess && evidence.framed < min_framed) || is_indoors_behind(rooms, face, hole) ||
         is_mirror(face, hole)) {
         return std::nullopt;
     }
