@@ -114,6 +114,7 @@ class OpeningFinder {
         return mirror_test_.share_of_images({face.plane, face.along, up_, hole}, max_wall_depth) >=
                min_share;
     }
+    WallFace reach_to_corners(const StoreyLayout& rooms, const WallFace& face) const;
     LeafExtent extent_of(const PlanarPatch& patch) const;
     void widen_to_hinge(const WallFace& face, WallRectangle& hole) const;
     OpenLeaf find_open_leaf(const WallFace& face, const WallRectangle& hole) const;
@@ -334,8 +335,7 @@ std::optional<WallOpening> OpeningFinder::judge(std::size_t storey, std::size_t 
     // none of these.
     constexpr double min_sinking = 0.02;
     const bool is_glazed = evidence.lost >= min_lost || evidence.sunk() >= min_sinking ||
-                           is_guess ||
-                           (relief.has_rays && evidence.through_share >= min_through);
+                           is_guess || (relief.has_rays && evidence.through_share >= min_through);
     // A mirror shows what lies behind it without a frame in the wall, and as often as not where
     // another room is.
     constexpr double min_framed = 0.25;
@@ -426,9 +426,35 @@ void join_panes(std::vector<WallOpening>& openings) {
     }
 }
 
+/// The face up to the corners of its room: a door beside a corner leaves no wall there to be seen.
+WallFace OpeningFinder::reach_to_corners(const StoreyLayout& rooms, const WallFace& face) const {
+    constexpr double max_reach = 1.3;  // the widest usual leaf and its frame
+    WallFace whole = face;
+    for (const WallFace& other : rooms.faces) {
+        if (other.room != face.room) continue;
+        const double cosine = other.plane.normal.dot(face.along);
+        if (std::abs(cosine) < std::cos(radians(45.0))) continue;
+        const Vector3d foot = face.plane.offset * face.plane.normal;
+        const double corner = (other.plane.offset - other.plane.normal.dot(foot)) / cosine;
+        const Vector3d place = foot + corner * face.along;
+        const double beyond =
+            std::max(other.start - place.dot(other.along), place.dot(other.along) - other.end);
+        if (beyond > max_reach) continue;
+        // The room lies before the other face.
+        if (cosine < 0.0 && corner > face.end && corner <= face.end + max_reach)
+            whole.end = std::max(whole.end, corner);
+        if (cosine > 0.0 && corner < face.start && corner >= face.start - max_reach)
+            whole.start = std::min(whole.start, corner);
+    }
+    // In whole cells: the raster on what was seen of the face stays as it is.
+    whole.start = face.start - cell_size_ * std::floor((face.start - whole.start) / cell_size_);
+    return whole;
+}
+
 OpenedWall OpeningFinder::look_at(std::size_t storey, std::size_t number) const {
     const StoreyLayout& rooms = layout(storey);
-    const WallFace& face = rooms.faces[number];
+    const WallFace& seen = rooms.faces[number];
+    const WallFace face = reach_to_corners(rooms, seen);
     const auto& room = rooms.plan.rooms[static_cast<std::size_t>(face.room)];
     const double top = room.ceiling_height.value_or(face.top);
     const double tolerance = std::max(sample_.tolerance, 2.0 * face.rms);
@@ -440,8 +466,12 @@ OpenedWall OpeningFinder::look_at(std::size_t storey, std::size_t number) const 
             openings.push_back(std::move(*opening));
     }
     join_panes(openings);
-    add_flat_doors(storey, number, relief, openings);
-    return {std::move(openings), hidden_share(relief)};
+    const int first = static_cast<int>(std::lround((seen.start - face.start) / cell_size_));
+    const int count = static_cast<int>(std::ceil(seen.width() / cell_size_));
+    const WallRelief of_seen =
+        columns_of(relief, first, std::min(count, relief.num_columns - first));
+    add_flat_doors(storey, number, of_seen, openings);
+    return {std::move(openings), hidden_share(of_seen)};
 }
 
 /// Of holes that may be windows behind blinds, or niches: only those are kept that look like a

@@ -151,6 +151,24 @@ WallRelief measure_wall_relief(const ScanMap& map, const WallFace& face, const E
     return relief;
 }
 
+WallRelief columns_of(const WallRelief& relief, int first, int count) {
+    WallRelief part = relief;
+    part.start += first * relief.cell_size;
+    part.num_columns = count;
+    part.cells.clear();
+    part.depths.clear();
+    for (int row = 0; row < relief.num_rows; ++row) {
+        for (int column = first; column < first + count; ++column) {
+            const std::size_t cell = relief.index(column, row);
+            part.cells.push_back(relief.cells[cell]);
+            const auto depths =
+                relief.depths.begin() + static_cast<std::ptrdiff_t>(cell * num_depth_bins);
+            part.depths.insert(part.depths.end(), depths, depths + num_depth_bins);
+        }
+    }
+    return part;
+}
+
 std::optional<double> hidden_share(const WallRelief& relief) {
     if (!relief.has_rays || relief.cells.empty()) return std::nullopt;
     const auto hidden =

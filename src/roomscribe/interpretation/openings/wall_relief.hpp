@@ -63,6 +63,9 @@ struct WallRelief {
 WallRelief measure_wall_relief(const ScanMap& map, const WallFace& face, const Eigen::Vector3d& up,
                                double bottom, double top, double tolerance, double cell_size);
 
+/// The relief's columns [first, first + count).
+WallRelief columns_of(const WallRelief& relief, int first, int count);
+
 /// Share of the wall that something stands before for all scanners that looked there, in [0, 1];
 /// casings and pictures, close to the wall, hide nothing. Empty where no rays were followed.
 std::optional<double> hidden_share(const WallRelief& relief);

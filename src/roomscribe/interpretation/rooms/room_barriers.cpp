@@ -190,14 +190,16 @@ void BarrierDrawer::draw(const UprightSurface& surface) {
         const bool has_lintel =
             ceiling &&
             (slices[i] & slices_between(top - settings_.ceiling_reach, top + slice_height)) != 0;
-        const bool has_body = share_of(slices[i], body_slices) >= 0.6;
-        const bool is_body = !ceiling && is_high && has_body;
-        const double seen_top = slice_height * (num_slices - std::countl_zero(slices[i]));
         // Rays would tell what is behind.
-        const bool is_partition = has_body && sample_.sensor_positions.empty() &&
-                                  seen_top >= min_partition_height &&
-                                  stands_alone(place_of(middle), normal, floor_height_ + seen_top);
-        const bool is_last = is_tall && std::popcount(slices[i]) >= min_slices && closes(middle);
+        const double seen_top = slice_height * (num_slices - std::countl_zero(slices[i]));
+        const bool is_alone = !sample_.sensor_positions.empty() ||
+                              stands_alone(place_of(middle), normal, floor_height_ + seen_top);
+        const bool has_body = share_of(slices[i], body_slices) >= 0.6;
+        const bool is_body = !ceiling && is_high && has_body && is_alone;
+        const bool is_partition = sample_.sensor_positions.empty() && has_body && is_alone &&
+                                  seen_top >= min_partition_height;
+        const bool is_last =
+            is_tall && is_alone && std::popcount(slices[i]) >= min_slices && closes(middle);
         parts[i] = has_lintel || is_body || is_partition || is_last;
     }
     // Gaps between two pieces, each long enough not to be a stray.
