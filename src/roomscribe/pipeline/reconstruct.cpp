@@ -6,6 +6,7 @@
 #include <numeric>
 #include <utility>
 
+#include "roomscribe/interpretation/bent_walls.hpp"
 #include "roomscribe/interpretation/component_support.hpp"
 #include "roomscribe/interpretation/fixtures/find_fixtures.hpp"
 #include "roomscribe/interpretation/fixtures/furniture_fixtures.hpp"
@@ -174,6 +175,7 @@ void interpret_by_default(Reconstruction& reconstruction, const ScanMap& map,
                        static_cast<std::int32_t>(num_before), seed_of(settings),
                        settings.interpretation.furniture, context);
     label_furniture(sample, furniture, reconstruction.labels);
+    continue_bent_walls(map.cloud, sample, surfaces, reconstruction.labels, context);
     stages.finish("furniture", 0.97);
     const std::vector<MountingFace> faces =
         faces_for_fixtures(sample, patches, surfaces, openings, furniture, num_before);
