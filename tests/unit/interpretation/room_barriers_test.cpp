@@ -87,5 +87,45 @@ TEST(RoomBarriers, FurniturePartsNothing) {
     EXPECT_FALSE(room.plan.is_barrier[room.cell_at(1.0)]);
 }
 
+/// A second surface along x = 2.6 m, seen from z = `from` on.
+void add_surface_behind(RoomWithSurface& room, std::vector<UprightSurface>& surfaces, double from) {
+    UprightSurface behind = room.surface;
+    behind.plane.offset += 0.6;
+    behind.top = ceiling;
+    behind.bottom = from;
+    behind.patches = {1};
+    room.patches.emplace_back();
+    for (double y = 0.01; y < 2.0; y += 0.02) {
+        for (double z = from; z < ceiling; z += 0.02) {
+            room.patches[1].points.push_back(
+                static_cast<std::uint32_t>(room.sample.cloud.positions.size()));
+            room.sample.cloud.positions.emplace_back(static_cast<float>(behind.plane.offset),
+                                                     static_cast<float>(y), static_cast<float>(z));
+        }
+    }
+    surfaces = {room.surface, behind};
+}
+
+TEST(RoomBarriers, WithoutScannersAPartitionUnderTheCeilingPartsRooms) {
+    RoomWithSurface room([](double, double z) { return z < 2.15; });
+    room.surface.top = 2.15;
+    room.draw();
+    EXPECT_TRUE(room.plan.is_barrier[room.cell_at(1.0)]);
+}
+
+TEST(RoomBarriers, WithoutScannersAWardrobeBeforeAWallPartsNothing) {
+    RoomWithSurface room([](double, double z) { return z < 2.0; });
+    room.surface.top = 2.0;
+    // It stands on the floor, up to the wall.
+    for (std::size_t cell = 0; cell < room.cells.size(); ++cell)
+        room.cells[cell].has_floor = room.plan.middle_of(cell).x() < 2.0;
+    std::vector<UprightSurface> surfaces;
+    add_surface_behind(room, surfaces, 2.0);
+    draw_barriers(surfaces, room.sample, room.patches, Eigen::Matrix3d::Identity(), 0.0, {},
+                  room.plan, room.cells);
+    EXPECT_FALSE(room.plan.is_barrier[room.cell_at(1.0)]);
+    EXPECT_TRUE(room.plan.is_barrier[*room.plan.cell_at(Vector2d(2.6 + 0.5 * cell_size, 1.0))]);
+}
+
 }  // namespace
 }  // namespace roomscribe

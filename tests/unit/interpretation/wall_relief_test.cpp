@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include "roomscribe/interpretation/openings/wall_holes.hpp"
+
 namespace roomscribe {
 namespace {
 
@@ -81,7 +83,73 @@ TEST(WallRelief, PlacesPointsOfUnknownScanners) {
     EXPECT_FALSE(hidden_share(relief));
     EXPECT_EQ(relief.at(5, 5).surface, 1U);
     EXPECT_EQ(relief.at(15, 5).recess, 1U);
-    EXPECT_EQ(relief.at(25, 5).open(), 0U);
+}
+
+TEST(WallRelief, GuessesAHoleWhereNothingWasSeenAndNothingStands) {
+    ScanMap map;
+    map.cloud.positions.emplace_back(0.0F, 0.55F, 0.55F);   // on the wall
+    map.cloud.positions.emplace_back(-2.0F, 2.55F, 0.55F);  // far behind it
+    map.cloud.positions.emplace_back(0.6F, 3.55F, 0.55F);   // before it
+    map.sections.push_back({"map", 0, 3, std::nullopt});
+    const WallRelief relief = measure(map);
+    EXPECT_EQ(relief.at(5, 5).open(), 0U);
+    EXPECT_GT(relief.at(25, 5).through, 0U);
+    EXPECT_EQ(relief.at(35, 5).open(), 0U);
+    EXPECT_EQ(relief.at(35, 5).hidden, 1U);
+}
+
+TEST(WallRelief, IsCutByColumns) {
+    const Vector3d sensor(3.0, 2.0, 1.2);
+    ScanMap map;
+    add_ray(map, sensor, 1.55, 0.55, -0.2);
+    add_ray(map, sensor, 2.55, 0.55, 0.0);
+    map.sections.push_back({"scan", 0, 2, sensor});
+    const WallRelief relief = measure(map);
+    const WallRelief part = columns_of(relief, 15, 11);
+    EXPECT_EQ(part.num_columns, 11);
+    EXPECT_EQ(part.num_rows, relief.num_rows);
+    EXPECT_NEAR(part.start, 1.5, 1e-12);
+    EXPECT_EQ(part.at(0, 5).recess, 1U);
+    EXPECT_EQ(part.at(10, 5).surface, 1U);
+    const std::size_t bin = static_cast<std::size_t>(0.2 / depth_bin);
+    EXPECT_EQ(part.depths[part.index(0, 5) * num_depth_bins + bin], 1U);
+}
+
+/// A hole of 0.9 x 2 m in a wall of an unknown scanner's map, with a lining 0.1 m deep or without.
+WallRelief doorway(bool is_lined) {
+    ScanMap map;
+    for (float y = 0.01F; y < 4.0F; y += 0.02F) {
+        for (float z = 0.01F; z < 2.4F; z += 0.02F) {
+            const bool is_hole = y > 1.5F && y < 2.4F && z < 2.0F;
+            if (!is_hole) map.cloud.positions.emplace_back(0.0F, y, z);
+        }
+    }
+    for (float x = -0.09F; is_lined && x < 0.0F; x += 0.02F) {
+        for (float z = 0.01F; z < 2.0F; z += 0.02F) {
+            map.cloud.positions.emplace_back(x, 1.5F, z);
+            map.cloud.positions.emplace_back(x, 2.4F, z);
+        }
+        for (float y = 1.51F; y < 2.4F; y += 0.02F)
+            map.cloud.positions.emplace_back(x, y, 2.0F);
+    }
+    map.sections.push_back({"map", 0, static_cast<std::uint32_t>(map.cloud.size()), std::nullopt});
+    return measure(map);
+}
+
+TEST(WallHoles, AreLinedWhereTheWallGoesInwards) {
+    for (const bool is_lined : {true, false}) {
+        const WallRelief relief = doorway(is_lined);
+        const std::vector<CellRectangle> holes = find_wall_holes(relief);
+        ASSERT_EQ(holes.size(), 1U);
+        EXPECT_NEAR(relief.cell_size * (holes[0].right - holes[0].left), 0.9, 0.15);
+        const HoleEvidence evidence = look_into(relief, holes[0]);
+        EXPECT_GT(evidence.through_share, 0.8);
+        if (is_lined) {
+            EXPECT_GT(evidence.lining, 0.9);
+        } else {
+            EXPECT_EQ(evidence.lining, 0.0);
+        }
+    }
 }
 
 }  // namespace
