@@ -24,9 +24,9 @@ bool has_all(KnownPoses poses) {
 
 /// The scans by the poses of --poses, else by those of their files.
 ScanMap make_map(JobInput& input) {
-    if (!input.given_poses.empty()) return merge_scans(input.scans, input.given_poses);
+    if (!input.given_poses.empty()) return merge_scans(std::move(input.scans), input.given_poses);
     if (has_all(input.stored_poses)) {
-        ScanMap map = merge_scans(input.scans, input.stored_poses);
+        ScanMap map = merge_scans(std::move(input.scans), input.stored_poses);
         map.cloud.global_shift = input.map_shift;
         return map;
     }

@@ -21,6 +21,7 @@
 #include "roomscribe/io/poses_io.hpp"
 #include "roomscribe/pipeline/corrections.hpp"
 #include "roomscribe/pipeline/scoring.hpp"
+#include "roomscribe/pipeline/stage_folder.hpp"
 #include "roomscribe/pipeline/truth_folder.hpp"
 #include "roomscribe/pipeline/workspace.hpp"
 #include "roomscribe/report/html_report.hpp"
@@ -58,6 +59,10 @@ RunRecord make_record(std::string_view verb, const JobOptions& options,
                              ? options.num_threads
                              : static_cast<int>(std::thread::hardware_concurrency());
     return record;
+}
+
+std::string_view unit_word(const std::optional<LengthUnit>& unit) {
+    return unit ? length_unit_name(*unit) : "auto";
 }
 
 /// True if the points of two maps lie in the same places, to the rounding of files.
@@ -216,9 +221,13 @@ ExitCode run_job(std::string_view verb, const JobOptions& options, const std::at
     summary.output = output.path().string();
     {
         ProgressDisplay display(options.progress);
-        const Context context = make_context(options, cancel, display);
+        Context context = make_context(options, cancel, display);
         ReportInfo info;
         info.run = make_record(verb, options, settings);
+        StageFolder stages(output.path(), hash_of_job(info.run, unit_word(options.unit)),
+                           options.resume ? RunStart::resumed : RunStart::afresh,
+                           context.on_message);
+        context.results = &stages;
         const std::optional<std::string> corrections_path = find_corrections(options);
         const std::vector<Correction> corrections = read_corrections(corrections_path);
         if (corrections_path) info.run.inputs.push_back(describe_input(*corrections_path));
@@ -234,6 +243,7 @@ ExitCode run_job(std::string_view verb, const JobOptions& options, const std::at
         summary.corrections = correct(reconstruction, corrections);
         info.score = summary.score = score(options, reconstruction, context);
         summary.report = write_results(output.path(), reconstruction, info, context);
+        stages.remove();
     }
     summary.seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

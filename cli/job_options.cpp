@@ -68,6 +68,11 @@ void add_output(CLI::App& verb, JobOptions& options) {
         ->required();
 }
 
+void add_resume(CLI::App& verb, JobOptions& options) {
+    verb.add_flag("--resume", options.resume,
+                  "Go on where a run into FOLDER with the same scans and settings was stopped");
+}
+
 void add_corrections(CLI::App& verb, JobOptions& options) {
     verb.add_option("--corrections", options.corrections,
                     "What is pinned, rejected, relabelled or of another size (docs/formats.md); "

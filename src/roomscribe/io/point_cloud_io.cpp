@@ -196,7 +196,7 @@ Scan read_scan(const std::filesystem::path& path, const Context& context) {
         scans.push_back(std::move(one.scan));
         poses.push_back(one.map_from_scan);
     }
-    PointCloud map = merge_scans(scans, poses).cloud;
+    PointCloud map = merge_scans(std::move(scans), poses).cloud;
     map.global_shift = stored.front().map_shift;
     return {path.filename().string(), std::move(map)};
 }

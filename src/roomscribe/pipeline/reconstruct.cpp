@@ -4,7 +4,10 @@
 #include <algorithm>
 #include <iterator>
 #include <numeric>
+#include <string>
 #include <utility>
+
+#include <fmt/format.h>
 
 #include "roomscribe/interpretation/component_support.hpp"
 #include "roomscribe/interpretation/fixtures/find_fixtures.hpp"
@@ -16,6 +19,8 @@
 #include "roomscribe/interpretation/paper_rules/label_by_rules.hpp"
 #include "roomscribe/interpretation/paper_rules/orient_by_door.hpp"
 #include "roomscribe/interpretation/paper_rules/plane_quadrilaterals.hpp"
+#include "roomscribe/model/kept_result.hpp"
+#include "roomscribe/model/result_bytes.hpp"
 #include "roomscribe/preprocessing/saturated_returns.hpp"
 #include "roomscribe/preprocessing/scan_origin.hpp"
 #include "roomscribe/structure/planar_surfaces.hpp"
@@ -273,7 +278,7 @@ Reconstruction map_apart(std::span<const Scan> scans, const Registration& whole,
     }
     part.components.emplace_back(chosen.size());
     std::iota(part.components[0].begin(), part.components[0].end(), std::size_t{0});
-    apart.map = merge_scans(own, part.map_from_scan);
+    apart.map = merge_scans(std::move(own), part.map_from_scan);
     return apart;
 }
 
@@ -290,25 +295,42 @@ void take_labels(const Reconstruction& apart, std::span<const std::size_t> scans
     }
 }
 
+void interpret_or_recall(Reconstruction& reconstruction, const std::string& name,
+                         const PipelineSettings& settings, const Context& context) {
+    Reconstruction& r = reconstruction;
+    if (recall(context, name, r.scene, r.labels, r.derived_values, r.stage_costs)) return;
+    interpret_map(reconstruction, settings, context);
+    keep(context, name, r.scene, r.labels, r.derived_values, r.stage_costs);
+}
+
 }  // namespace
 
 Reconstruction register_to_map(std::span<const Scan> scans, const PipelineSettings& settings,
+                               const Context& context, KnownPoses known_poses) {
+    return register_to_map(std::vector<Scan>(scans.begin(), scans.end()), settings, context,
+                           known_poses);
+}
+
+Reconstruction register_to_map(std::vector<Scan>&& scans, const PipelineSettings& settings,
                                const Context& context, KnownPoses known_poses) {
     check_settings(settings);
     Reconstruction result;
     StageTimer timer(result.stage_costs);
 
-    ScanRegistration registration =
-        register_scans(scans, known_poses, seed_of(settings), settings.registration, context);
+    result.registration.emplace();
+    if (!recall(context, "registration", *result.registration, result.derived_values)) {
+        ScanRegistration found =
+            register_scans(scans, known_poses, seed_of(settings), settings.registration, context);
+        result.registration = std::move(found.registration);
+        result.derived_values = std::move(found.derived_values);
+        keep(context, "registration", *result.registration, result.derived_values);
+    }
     timer.finish("register");
-    result.registration = std::move(registration.registration);
-    result.map = merge_scans(scans, result.registration->map_from_scan);
     const auto& components = result.registration->components;
     for (std::size_t i = 1; i < components.size(); ++i)
         result.apart.push_back(map_apart(scans, *result.registration, components[i]));
+    result.map = merge_scans(std::move(scans), result.registration->map_from_scan);
     timer.finish("merge");
-
-    result.derived_values = std::move(registration.derived_values);
     return result;
 }
 
@@ -328,10 +350,17 @@ void interpret_map(Reconstruction& reconstruction, const PipelineSettings& setti
 
 Reconstruction reconstruct(std::span<const Scan> scans, const PipelineSettings& settings,
                            const Context& context, KnownPoses known_poses) {
-    Reconstruction result = register_to_map(scans, settings, context, known_poses);
-    interpret_map(result, settings, context);
+    return reconstruct(std::vector<Scan>(scans.begin(), scans.end()), settings, context,
+                       known_poses);
+}
+
+Reconstruction reconstruct(std::vector<Scan>&& scans, const PipelineSettings& settings,
+                           const Context& context, KnownPoses known_poses) {
+    Reconstruction result = register_to_map(std::move(scans), settings, context, known_poses);
+    interpret_or_recall(result, "interpretation", settings, context);
     for (std::size_t i = 0; i < result.apart.size(); ++i) {
-        interpret_map(result.apart[i], settings, context);
+        interpret_or_recall(result.apart[i], fmt::format("interpretation-{}", i + 2), settings,
+                            context);
         take_labels(result.apart[i], result.registration->components[i + 1], result);
     }
     return result;
