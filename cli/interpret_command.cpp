@@ -60,6 +60,7 @@ void add_interpret_command(CLI::App& program, Action& action) {
     add_scans(verb, *options);
     add_poses(verb, *options);
     add_output(verb, *options);
+    add_memory(verb, *options);
     add_corrections(verb, *options);
     add_truth(verb, *options);
     add_job_options(verb, *options);

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
+#include <new>
 #include <optional>
 #include <thread>
 #include <utility>
@@ -161,58 +162,9 @@ void note_unit(JobSummary& summary, Reconstruction& reconstruction) {
     }
 }
 
-}  // namespace
-
-Context make_context(const JobOptions& options, const std::atomic<bool>& cancel,
-                     ProgressDisplay& display) {
-    Context context;
-    context.num_threads = options.num_threads;
-    context.cancel = &cancel;
-    context.on_progress = [&display](std::string_view stage, double fraction) {
-        display.show(stage, fraction);
-    };
-    context.on_message = [&display](std::string_view message) { display.show_message(message); };
-    return context;
-}
-
-JobInput load_scans(std::span<const std::string> paths, const Context& context) {
-    JobInput input;
-    for (const std::string& path : paths) {
-        context.throw_if_cancelled();
-        for (StoredScan& stored : read_scans(path, context)) {
-            const bool several = stored.scan.name != std::filesystem::path(path).filename();
-            require_usable(several ? path + " (" + stored.scan.name + ")" : path,
-                           stored.scan.cloud);
-            // One shift serves all files.
-            if (input.scans.empty()) input.map_shift = stored.map_shift;
-            if (stored.map_from_scan) {
-                stored.map_from_scan->translation() += stored.map_shift - input.map_shift;
-            }
-            input.scans.push_back(std::move(stored.scan));
-            input.stored_poses.push_back(stored.map_from_scan);
-            input.paths.push_back(path);
-        }
-    }
-    return input;
-}
-
-void load_poses(JobInput& input, const JobOptions& options, const Context& context) {
-    if (options.pose_files.empty()) return;
-    auto& poses = input.given_poses;
-    for (const std::string& path : options.pose_files) {
-        const auto more = read_poses(path, context);
-        poses.insert(poses.end(), more.begin(), more.end());
-    }
-    if (poses.size() != input.scans.size()) {
-        throw IoError(
-            options.pose_files.back(), "poses", {},
-            fmt::format("there are {} poses for {} scans", poses.size(), input.scans.size()),
-            "give one pose per scan, in the order of the scans");
-    }
-}
-
-ExitCode run_job(std::string_view verb, const JobOptions& options, const std::atomic<bool>& cancel,
-                 const Work& work) {
+/// The job itself; run_job minds its memory.
+ExitCode run_job_within(const MemoryLimit& memory, std::string_view verb, const JobOptions& options,
+                        const std::atomic<bool>& cancel, const Work& work) {
     const auto start = std::chrono::steady_clock::now();
     const PipelineSettings settings = resolve_settings(options);
     const OutputFolder output(options.output);
@@ -231,7 +183,7 @@ ExitCode run_job(std::string_view verb, const JobOptions& options, const std::at
         const std::optional<std::string> corrections_path = find_corrections(options);
         const std::vector<Correction> corrections = read_corrections(corrections_path);
         if (corrections_path) info.run.inputs.push_back(describe_input(*corrections_path));
-        JobInput input = load_scans(options.inputs, context);
+        JobInput input = load_scans(options.inputs, context, memory);
         load_poses(input, options, context);
         summary.unit = convert_to_metres(input.scans, input.paths, options.unit, context);
         convert_to_metres(input.given_poses, summary.unit);
@@ -255,6 +207,70 @@ ExitCode run_job(std::string_view verb, const JobOptions& options, const std::at
     std::fflush(stdout);
     fmt::print(stderr, "roomscribe: {}\n", missing);
     return ExitCode::no_result;
+}
+
+}  // namespace
+
+Context make_context(const JobOptions& options, const std::atomic<bool>& cancel,
+                     ProgressDisplay& display) {
+    Context context;
+    context.num_threads = options.num_threads;
+    context.cancel = &cancel;
+    context.on_progress = [&display](std::string_view stage, double fraction) {
+        display.show(stage, fraction);
+    };
+    context.on_message = [&display](std::string_view message) { display.show_message(message); };
+    return context;
+}
+
+JobInput load_scans(std::span<const std::string> paths, const Context& context,
+                    const MemoryLimit& memory) {
+    JobInput input;
+    for (const std::string& path : paths) {
+        context.throw_if_cancelled();
+        for (StoredScan& stored : read_scans(path, context)) {
+            const bool several = stored.scan.name != std::filesystem::path(path).filename();
+            require_usable(several ? path + " (" + stored.scan.name + ")" : path,
+                           stored.scan.cloud);
+            // One shift serves all files.
+            if (input.scans.empty()) input.map_shift = stored.map_shift;
+            if (stored.map_from_scan) {
+                stored.map_from_scan->translation() += stored.map_shift - input.map_shift;
+            }
+            input.scans.push_back(std::move(stored.scan));
+            input.stored_poses.push_back(stored.map_from_scan);
+            input.paths.push_back(path);
+        }
+        memory.require_room(input.scans);
+    }
+    return input;
+}
+
+void load_poses(JobInput& input, const JobOptions& options, const Context& context) {
+    if (options.pose_files.empty()) return;
+    auto& poses = input.given_poses;
+    for (const std::string& path : options.pose_files) {
+        const auto more = read_poses(path, context);
+        poses.insert(poses.end(), more.begin(), more.end());
+    }
+    if (poses.size() != input.scans.size()) {
+        throw IoError(
+            options.pose_files.back(), "poses", {},
+            fmt::format("there are {} poses for {} scans", poses.size(), input.scans.size()),
+            "give one pose per scan, in the order of the scans");
+    }
+}
+
+ExitCode run_job(std::string_view verb, const JobOptions& options, const std::atomic<bool>& cancel,
+                 const Work& work) {
+    const MemoryLimit memory(
+        options.memory.empty() ? std::nullopt : std::optional(parse_memory_size(options.memory)));
+    try {
+        return run_job_within(memory, verb, options, cancel, work);
+    } catch (const std::bad_alloc&) {
+        if (options.memory.empty()) throw;
+        throw UsageError(memory.exceeded_message());
+    }
 }
 
 }  // namespace roomscribe::cli

@@ -68,6 +68,13 @@ void add_output(CLI::App& verb, JobOptions& options) {
         ->required();
 }
 
+void add_memory(CLI::App& verb, JobOptions& options) {
+    verb.add_option("--memory", options.memory,
+                    "Memory to use at most: more is never taken; scans that need more are refused, "
+                    "and how much they need is said")
+        ->type_name("SIZE");
+}
+
 void add_resume(CLI::App& verb, JobOptions& options) {
     verb.add_flag("--resume", options.resume,
                   "Go on where a run into FOLDER with the same scans and settings was stopped");

@@ -14,6 +14,7 @@ void add_run_command(CLI::App& program, Action& action) {
     add_scans(verb, *options);
     add_poses(verb, *options);
     add_output(verb, *options);
+    add_memory(verb, *options);
     add_resume(verb, *options);
     add_corrections(verb, *options);
     add_truth(verb, *options);

@@ -23,7 +23,7 @@ struct ProgramOptions {
     /// Sends SIGINT as soon as the program has written something to stderr.
     bool interrupt_at_first_message = false;
     /// Sends SIGKILL at that time after the start, unless the program has ended by then.
-    std::optional<std::chrono::microseconds> kill_after = std::nullopt;
+    std::optional<std::chrono::steady_clock::duration> kill_after = std::nullopt;
 };
 
 /// Runs a program to its end, with no standard input.

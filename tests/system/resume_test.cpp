@@ -76,20 +76,16 @@ void expect_whole(const std::filesystem::path& out, const Files& expected) {
     }
 }
 
+/// Runs the job, stops it at moments that the seed draws, each time goes on with --resume, and
+/// compares the result with that of a run that nobody stopped.
 class Resume : public testing::Test {
   protected:
-    /// Two scans that belong together and one of another room, which so has a map apart: some
-    /// hundred milliseconds of work.
-    void SetUp() override {
-        std::vector<Scan> scans = scan_furnished_room(1, 16.0);
-        const Transform in_room(Eigen::Translation3d(2.0, 1.5, 1.4));
-        scans.at(2).cloud = simulate_scan(other_room(), in_room, 1, 16.0).cloud;
+    void write_scans(const std::vector<Scan>& scans) {
+        arguments_ = {"run"};
         for (const Scan& scan : scans) {
-            const auto path = folder_ / scan.name;
-            write_point_cloud(path, scan.cloud);
-            arguments_.push_back(path.string());
+            arguments_.push_back((folder_ / scan.name).string());
+            write_point_cloud(arguments_.back(), scan.cloud);
         }
-        arguments_.insert(arguments_.begin(), "run");
     }
 
     std::vector<std::string> command(const std::filesystem::path& out,
@@ -100,44 +96,71 @@ class Resume : public testing::Test {
         return all;
     }
 
-    TemporaryFolder folder_;
-    std::vector<std::string> arguments_;
-};
+    void run_whole() {
+        const Clock::time_point start = Clock::now();
+        ASSERT_EQ(roomscribe(command(folder_ / "whole")).exit_code, 0);
+        whole_time_ = Clock::now() - start;
+        expected_ = files_of(folder_ / "whole");
+    }
 
-TEST_F(Resume, AfterAKillAtAnyMomentTheResultIsTheSame) {
-    const Clock::time_point start = Clock::now();
-    ASSERT_EQ(roomscribe(command(folder_ / "whole")).exit_code, 0);
-    const auto whole_time =
-        std::chrono::duration_cast<std::chrono::microseconds>(Clock::now() - start);
-    const Files expected = files_of(folder_ / "whole");
-    ASSERT_EQ(expected.count("labels.ply"), 1U);
-    ASSERT_EQ(expected.count("set-2/labels.ply"), 1U);
-
-    Random random(50);
-    int num_killed = 0;
-    int num_used = 0;
-    for (int i = 0; i < 50; ++i) {
-        const std::filesystem::path out = folder_ / fmt::format("out-{}", i);
-        const auto moment = std::chrono::microseconds(
-            static_cast<long>(random.uniform() * 1.02 * static_cast<double>(whole_time.count())));
-        SCOPED_TRACE(fmt::format("killed after {} of {} us", moment.count(), whole_time.count()));
+    void kill_and_resume(Clock::duration moment) {
+        const std::filesystem::path out = folder_ / "out";
+        std::filesystem::remove_all(out);
+        SCOPED_TRACE(
+            fmt::format("killed after {:.6f} s", std::chrono::duration<double>(moment).count()));
         const ProgramResult killed = roomscribe(command(out), {.kill_after = moment});
-        if (killed.exit_code == 128 + SIGKILL) ++num_killed;
-        expect_whole(out, expected);
-
+        if (killed.exit_code == 128 + SIGKILL) ++num_killed_;
+        expect_whole(out, expected_);
         const ProgramResult resumed = roomscribe(command(out, {"--resume", "--progress", "json"}));
         ASSERT_EQ(resumed.exit_code, 0) << resumed.err;
-        if (resumed.err.find("results of the run before are used") != std::string::npos) ++num_used;
+        if (resumed.err.find("results of the run before are used") != std::string::npos)
+            ++num_used_;
         EXPECT_EQ(resumed.err.find("damaged"), std::string::npos) << resumed.err;
-        expect_same_files(files_of(out), expected);
-        std::filesystem::remove_all(out);
+        expect_same_files(files_of(out), expected_);
     }
-    // The moments are of a run whose speed is not known beforehand: most must have hit it.
-    EXPECT_GE(num_killed, 25);
-    EXPECT_GE(num_used, 5);
+
+    TemporaryFolder folder_;
+    std::vector<std::string> arguments_;
+    Clock::duration whole_time_{};
+    Files expected_;
+    int num_killed_ = 0;
+    int num_used_ = 0;
+};
+
+/// Fifty moments in five parts, which may run side by side.
+class ResumeAtRandom : public Resume, public testing::WithParamInterface<std::uint64_t> {};
+
+TEST_P(ResumeAtRandom, TheResultIsThatOfARunThatNobodyStopped) {
+    std::vector<Scan> scans = scan_furnished_room(1, 20.0);
+    scans.pop_back();
+    write_scans(scans);
+    run_whole();
+    ASSERT_EQ(expected_.count("labels.ply"), 1U);
+    constexpr int num_moments = 10;
+    Random random(GetParam());
+    for (int i = 0; i < num_moments; ++i)
+        kill_and_resume(
+            std::chrono::duration_cast<Clock::duration>(random.uniform() * whole_time_));
+    // How fast the runs are is not known beforehand.
+    EXPECT_GE(num_killed_, 2);
+}
+
+INSTANTIATE_TEST_SUITE_P(Moments, ResumeAtRandom, testing::Range<std::uint64_t>(0, 5));
+
+TEST_F(Resume, GoesOnWithMapsApart) {
+    std::vector<Scan> scans = scan_furnished_room(1, 20.0);
+    const Transform in_room(Eigen::Translation3d(2.0, 1.5, 1.4));
+    scans.at(2).cloud = simulate_scan(other_room(), in_room, 1, 20.0).cloud;
+    write_scans(scans);
+    run_whole();
+    ASSERT_EQ(expected_.count("set-2/labels.ply"), 1U);
+    for (const double share : {0.6, 0.8, 0.9, 0.97})
+        kill_and_resume(std::chrono::duration_cast<Clock::duration>(share * whole_time_));
+    EXPECT_GE(num_used_, 1);
 }
 
 TEST_F(Resume, ResultsOfAnotherJobAreNotUsedAndThatIsSaid) {
+    write_scans(scan_furnished_room(1, 20.0));
     const std::filesystem::path out = folder_ / "out";
     std::filesystem::create_directories(out / ".stages");
     std::ofstream(out / ".stages" / "registration") << "rs-stage, but of another job";

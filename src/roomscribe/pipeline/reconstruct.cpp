@@ -338,14 +338,15 @@ void interpret_map(Reconstruction& reconstruction, const PipelineSettings& setti
                    const Context& context) {
     check_settings(settings);
     infer_scanner(reconstruction);
-    const std::optional<ScanMap> cleaned = without_saturated_returns(reconstruction.map);
-    const ScanMap& map = cleaned ? *cleaned : reconstruction.map;
+    const std::vector<HiddenPoint> hidden = hide_saturated_returns(reconstruction.map);
+    const ScanMap& map = reconstruction.map;
     if (settings.interpretation.method == InterpretationMethod::paper) {
         interpret_as_paper(reconstruction, map, settings, context);
     } else {
         interpret_by_default(reconstruction, map, settings, context);
     }
     measure_support(map, reconstruction.labels, reconstruction.scene.components, context);
+    put_back(hidden, reconstruction.map);
 }
 
 Reconstruction reconstruct(std::span<const Scan> scans, const PipelineSettings& settings,

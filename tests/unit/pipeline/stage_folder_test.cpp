@@ -1,16 +1,22 @@
 // SPDX-License-Identifier: MIT
 #include "roomscribe/pipeline/stage_folder.hpp"
 
+#include <fstream>
 #include <string>
 #include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "support/run_program.hpp"
 #include "support/test_data.hpp"
 
 namespace roomscribe {
 namespace {
+
+void write_bytes(const std::filesystem::path& path, const std::string& bytes) {
+    std::ofstream(path, std::ios::binary) << bytes;
+}
 
 class StageFolderTest : public testing::Test {
   protected:
@@ -74,9 +80,9 @@ TEST_F(StageFolderTest, IgnoresDamage) {
     for (std::size_t i = 0; i < whole.size(); ++i) {
         std::string damaged = whole;
         damaged[i] = static_cast<char>(damaged[i] ^ 4);
-        test::write_bytes(path, damaged);
+        write_bytes(path, damaged);
         ASSERT_EQ(recall(first, "pair-1-0"), "nothing") << i;
-        test::write_bytes(path, whole.substr(0, i));
+        write_bytes(path, whole.substr(0, i));
         ASSERT_EQ(recall(first, "pair-1-0"), "nothing") << i;
     }
     StageFolder second = open(1, RunStart::resumed);
@@ -85,7 +91,7 @@ TEST_F(StageFolderTest, IgnoresDamage) {
 }
 
 TEST_F(StageFolderTest, IsNoErrorWhereNothingCanBeKept) {
-    test::write_bytes(folder_ / ".stages", "a file that is in the way");
+    write_bytes(folder_ / ".stages", "a file that is in the way");
     StageFolder stages(folder_ / ".stages", 1, RunStart::afresh,
                        [this](std::string_view message) { messages_.emplace_back(message); });
     keep(stages, "pair-1-0", "some result");
@@ -94,8 +100,11 @@ TEST_F(StageFolderTest, IsNoErrorWhereNothingCanBeKept) {
 }
 
 TEST(HashOfJob, TellsJobsApart) {
-    RunRecord record{.version = "1.0", .command = "run"};
-    record.settings = {{.name = "seed", .value = "1"}};
+    RunRecord record;
+    record.version = "1.0";
+    record.command = "run";
+    record.settings.emplace_back().name = "seed";
+    record.settings.back().value = "1";
     record.inputs = {{"a/scan.ply", 100, 7}};
     const std::uint64_t hash = hash_of_job(record, "auto");
     RunRecord moved = record;
