@@ -37,7 +37,7 @@ void add_scans(CLI::App& verb, JobOptions& options) {
     verb.add_option(
             "SCANS", options.inputs,
             "Scans: PCD, PLY, E57, LAS, PTX, PTS, XYZ, CSV, NPY, OBJ, UOS .3d, legacy VTK, depth "
-            "PNG, planar scans .tilt, a TUM RGB-D folder; all scans of a file are taken")
+            "PNG, planar scans .tilt, ROS .bag, a TUM RGB-D folder; all scans of a file are taken")
         ->type_name("")
         ->required();
     add_unit(verb, options.unit);

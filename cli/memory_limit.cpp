@@ -17,7 +17,7 @@ namespace {
 constexpr std::size_t mega = std::size_t{1} << 20U;
 constexpr std::size_t giga = std::size_t{1} << 30U;
 /// Less than a small room takes.
-constexpr std::size_t least = 256 * mega;
+constexpr std::size_t least = 512 * mega;
 /// What counts as memory in use and is not the data that RLIMIT_DATA bounds: the program itself,
 /// its libraries, and what of open files was just read.
 constexpr std::size_t not_data = 128 * mega;

@@ -12,7 +12,7 @@
 namespace roomscribe::cli {
 
 /// "8G", "500M", "1.5GiB": G and M are 2^30 and 2^20 bytes. Throws UsageError for anything else, or
-/// less than 256M.
+/// less than 512M.
 std::size_t parse_memory_size(std::string_view text);
 
 /// Keeps the memory of the process under a size for as long as it lives: what would go beyond
