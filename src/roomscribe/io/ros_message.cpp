@@ -6,6 +6,7 @@
 #include <bit>
 #include <charconv>
 #include <cstring>
+#include <numeric>
 #include <utility>
 
 #include <fmt/format.h>
@@ -170,12 +171,18 @@ RosDefinition parse_ros_definition(std::string_view text) {
 
 RosMessage::RosMessage(const RosDefinition& definition, std::span<const std::byte> bytes) {
     MessageReader(definition, bytes, fields_).read();
+    by_path_.resize(fields_.size());
+    std::iota(by_path_.begin(), by_path_.end(), std::size_t{0});
+    std::stable_sort(by_path_.begin(), by_path_.end(), [this](std::size_t a, std::size_t b) {
+        return fields_[a].path < fields_[b].path;
+    });
 }
 
 const RosField* RosMessage::find(std::string_view path) const {
-    const auto found = std::find_if(fields_.begin(), fields_.end(),
-                                    [&](const RosField& field) { return field.path == path; });
-    return found == fields_.end() ? nullptr : &*found;
+    const auto found = std::lower_bound(
+        by_path_.begin(), by_path_.end(), path,
+        [this](std::size_t i, std::string_view wanted) { return fields_[i].path < wanted; });
+    return found == by_path_.end() || fields_[*found].path != path ? nullptr : &fields_[*found];
 }
 
 std::optional<double> RosMessage::number(std::string_view path) const {
@@ -201,6 +208,17 @@ std::vector<double> RosMessage::numbers(std::string_view path) const {
                                          field->type, std::endian::native == std::endian::big));
     }
     return numbers;
+}
+
+double RosMessage::time(std::string_view path) const {
+    const std::vector<double> stamp = numbers(path);
+    return stamp.size() == 2 ? stamp[0] + 1e-9 * stamp[1] : 0.0;
+}
+
+std::string RosMessage::frame(std::string_view path) const {
+    std::string frame = text(path).value_or("");
+    if (frame.starts_with('/')) frame.erase(0, 1);
+    return frame;
 }
 
 }  // namespace roomscribe

@@ -49,9 +49,14 @@ class RosMessage {
     std::optional<double> number(std::string_view path) const;
     std::optional<std::string> text(std::string_view path) const;
     std::vector<double> numbers(std::string_view path) const;
+    /// Seconds; 0 where there is no such time.
+    double time(std::string_view path) const;
+    /// The name of a frame without the slash that it once began with.
+    std::string frame(std::string_view path) const;
 
   private:
     std::vector<RosField> fields_;
+    std::vector<std::size_t> by_path_;  ///< numbers of the fields, sorted by path
 };
 
 }  // namespace roomscribe

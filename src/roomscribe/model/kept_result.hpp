@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <span>
 #include <string_view>
+#include <tuple>
 #include <utility>
 
 #include "roomscribe/core/context.hpp"
@@ -23,16 +24,19 @@ void keep(const Context& context, std::string_view name, const Values&... values
     });
 }
 
-/// Fills the values with what was kept under that name; false, and anything in them, if there is
-/// nothing.
+/// Fills the values with what was kept under that name; false, and nothing in them is changed, if
+/// there is nothing.
 template <typename... Values>
 bool recall(const Context& context, std::string_view name, Values&... values) {
     if (context.results == nullptr) return false;
-    return context.results->recall(name, [&](std::span<const std::byte> bytes) {
+    std::tuple<Values...> recalled;
+    const bool is_known = context.results->recall(name, [&](std::span<const std::byte> bytes) {
         ByteSource source(bytes);
-        source(values...);
+        std::apply([&source](Values&... all) { source(all...); }, recalled);
         if (!source.at_end()) throw Error("a kept result ends too late");
     });
+    if (is_known) std::tie(values...) = std::move(recalled);
+    return is_known;
 }
 
 /// What was kept under that name, or else what `compute` returns, which is kept.

@@ -295,12 +295,20 @@ void take_labels(const Reconstruction& apart, std::span<const std::size_t> scans
     }
 }
 
-void interpret_or_recall(Reconstruction& reconstruction, const std::string& name,
+ScanRegistration register_or_recall(std::span<const Scan> scans, KnownPoses known_poses,
+                                    const PipelineSettings& settings, const Context& context) {
+    ScanRegistration found;
+    if (recall(context, "registration", found.registration, found.derived_values)) return found;
+    found = register_scans(scans, known_poses, seed_of(settings), settings.registration, context);
+    keep(context, "registration", found.registration, found.derived_values);
+    return found;
+}
+
+void interpret_or_recall(Reconstruction& map, const std::string& name,
                          const PipelineSettings& settings, const Context& context) {
-    Reconstruction& r = reconstruction;
-    if (recall(context, name, r.scene, r.labels, r.derived_values, r.stage_costs)) return;
-    interpret_map(reconstruction, settings, context);
-    keep(context, name, r.scene, r.labels, r.derived_values, r.stage_costs);
+    if (recall(context, name, map.scene, map.labels, map.derived_values, map.stage_costs)) return;
+    interpret_map(map, settings, context);
+    keep(context, name, map.scene, map.labels, map.derived_values, map.stage_costs);
 }
 
 }  // namespace
@@ -317,15 +325,10 @@ Reconstruction register_to_map(std::vector<Scan>&& scans, const PipelineSettings
     Reconstruction result;
     StageTimer timer(result.stage_costs);
 
-    result.registration.emplace();
-    if (!recall(context, "registration", *result.registration, result.derived_values)) {
-        ScanRegistration found =
-            register_scans(scans, known_poses, seed_of(settings), settings.registration, context);
-        result.registration = std::move(found.registration);
-        result.derived_values = std::move(found.derived_values);
-        keep(context, "registration", *result.registration, result.derived_values);
-    }
+    ScanRegistration registration = register_or_recall(scans, known_poses, settings, context);
     timer.finish("register");
+    result.registration = std::move(registration.registration);
+    result.derived_values = std::move(registration.derived_values);
     const auto& components = result.registration->components;
     for (std::size_t i = 1; i < components.size(); ++i)
         result.apart.push_back(map_apart(scans, *result.registration, components[i]));
