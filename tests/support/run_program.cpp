@@ -68,8 +68,11 @@ ProgramResult run_program(const std::filesystem::path& program,
             to_interrupt = false;
             kill(pid, SIGINT);
         }
-        if (options.kill_after && Clock::now() - start >= *options.kill_after) kill(pid, SIGKILL);
-        std::this_thread::sleep_for(std::chrono::milliseconds(options.kill_after ? 1 : 2));
+        const bool is_time = options.kill_after && Clock::now() - start >= *options.kill_after;
+        const bool is_there = !options.kill_at_file.empty() &&
+                              std::filesystem::exists(options.kill_at_file, not_there_yet);
+        if (is_time || is_there) kill(pid, SIGKILL);
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
     result.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
     result.peak_memory = static_cast<std::size_t>(usage.ru_maxrss) * 1024;

@@ -24,6 +24,8 @@ struct ProgramOptions {
     bool interrupt_at_first_message = false;
     /// Sends SIGKILL at that time after the start, unless the program has ended by then.
     std::optional<std::chrono::steady_clock::duration> kill_after = std::nullopt;
+    /// Sends SIGKILL as soon as there is a file of that name.
+    std::filesystem::path kill_at_file = {};
 };
 
 /// Runs a program to its end, with no standard input.

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "roomscribe/io/point_cloud_io.hpp"
+#include "support/simulated_rooms.hpp"
 #include "system/program.hpp"
 
 namespace roomscribe::test {
@@ -12,8 +13,10 @@ namespace {
 TEST(Memory, ABoundIsKeptAndChangesNoResult) {
     const TemporaryFolder folder;
     std::vector<std::string> arguments{"run"};
-    for (const std::string& scan : write_room_scans(folder.path(), 2))
-        arguments.push_back(scan);
+    for (const Scan& scan : scan_furnished_room(1, 16.0)) {
+        arguments.push_back((folder / scan.name).string());
+        write_point_cloud(arguments.back(), scan.cloud);
+    }
     const auto run = [&](const std::string& name, const std::vector<std::string>& more) {
         std::vector<std::string> all = arguments;
         all.insert(all.end(), {"-o", (folder / name).string()});

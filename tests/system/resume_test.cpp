@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <fstream>
@@ -103,23 +104,27 @@ class Resume : public testing::Test {
         expected_ = files_of(folder_ / "whole");
     }
 
-    void kill_and_resume(Clock::duration moment) {
-        const std::filesystem::path out = folder_ / "out";
-        std::filesystem::remove_all(out);
-        SCOPED_TRACE(
-            fmt::format("killed after {:.6f} s", std::chrono::duration<double>(moment).count()));
-        const ProgramResult killed = roomscribe(command(out), {.kill_after = moment});
-        if (killed.exit_code == 128 + SIGKILL) ++num_killed_;
-        expect_whole(out, expected_);
-        const ProgramResult resumed = roomscribe(command(out, {"--resume", "--progress", "json"}));
+    void kill_and_resume(const ProgramOptions& how) {
+        std::filesystem::remove_all(out_);
+        const Clock::time_point start = Clock::now();
+        const ProgramResult killed = roomscribe(command(out_), how);
+        if (killed.exit_code == 128 + SIGKILL) {
+            ++num_killed_;
+        } else {
+            // The machine is quicker now: later moments should hit.
+            whole_time_ = std::min<Clock::duration>(whole_time_, Clock::now() - start);
+        }
+        expect_whole(out_, expected_);
+        const ProgramResult resumed = roomscribe(command(out_, {"--resume", "--progress", "json"}));
         ASSERT_EQ(resumed.exit_code, 0) << resumed.err;
         if (resumed.err.find("results of the run before are used") != std::string::npos)
             ++num_used_;
         EXPECT_EQ(resumed.err.find("damaged"), std::string::npos) << resumed.err;
-        expect_same_files(files_of(out), expected_);
+        expect_same_files(files_of(out_), expected_);
     }
 
     TemporaryFolder folder_;
+    std::filesystem::path out_ = folder_ / "out";
     std::vector<std::string> arguments_;
     Clock::duration whole_time_{};
     Files expected_;
@@ -138,11 +143,15 @@ TEST_P(ResumeAtRandom, TheResultIsThatOfARunThatNobodyStopped) {
     ASSERT_EQ(expected_.count("labels.ply"), 1U);
     constexpr int num_moments = 10;
     Random random(GetParam());
-    for (int i = 0; i < num_moments; ++i)
-        kill_and_resume(
-            std::chrono::duration_cast<Clock::duration>(random.uniform() * whole_time_));
+    for (int i = 0; i < num_moments; ++i) {
+        const auto moment =
+            std::chrono::duration_cast<Clock::duration>(random.uniform() * whole_time_);
+        SCOPED_TRACE(
+            fmt::format("killed after {:.6f} s", std::chrono::duration<double>(moment).count()));
+        kill_and_resume({.kill_after = moment});
+    }
     // How fast the runs are is not known beforehand.
-    EXPECT_GE(num_killed_, 2);
+    EXPECT_GE(num_killed_, 1);
 }
 
 INSTANTIATE_TEST_SUITE_P(Moments, ResumeAtRandom, testing::Range<std::uint64_t>(0, 5));
@@ -154,21 +163,23 @@ TEST_F(Resume, GoesOnWithMapsApart) {
     write_scans(scans);
     run_whole();
     ASSERT_EQ(expected_.count("set-2/labels.ply"), 1U);
-    for (const double share : {0.6, 0.8, 0.9, 0.97})
-        kill_and_resume(std::chrono::duration_cast<Clock::duration>(share * whole_time_));
-    EXPECT_GE(num_used_, 1);
+    for (const char* file : {".stages/registration", ".stages/interpretation", "set-2/map.ply"}) {
+        SCOPED_TRACE(file);
+        kill_and_resume({.kill_at_file = out_ / file});
+    }
+    EXPECT_EQ(num_killed_, 3);
+    EXPECT_EQ(num_used_, 3);
 }
 
 TEST_F(Resume, ResultsOfAnotherJobAreNotUsedAndThatIsSaid) {
     write_scans(scan_furnished_room(1, 20.0));
-    const std::filesystem::path out = folder_ / "out";
-    std::filesystem::create_directories(out / ".stages");
-    std::ofstream(out / ".stages" / "registration") << "rs-stage, but of another job";
-    const ProgramResult result = roomscribe(command(out, {"--resume", "--progress", "json"}));
+    std::filesystem::create_directories(out_ / ".stages");
+    std::ofstream(out_ / ".stages" / "registration") << "rs-stage, but of another job";
+    const ProgramResult result = roomscribe(command(out_, {"--resume", "--progress", "json"}));
     EXPECT_EQ(result.exit_code, 0) << result.err;
     EXPECT_THAT(result.err, testing::HasSubstr("nothing to go on from"));
     EXPECT_THAT(result.err, testing::HasSubstr("computed again"));
-    EXPECT_FALSE(std::filesystem::exists(out / ".stages"));
+    EXPECT_FALSE(std::filesystem::exists(out_ / ".stages"));
 }
 
 }  // namespace

@@ -112,7 +112,7 @@ std::vector<std::optional<Sweep>> sweeps_by_transforms(const LaserTopic& laser,
         sweeps.emplace_back();
         if (!first || !last || !transforms.has(scan.frame)) continue;
         sweeps.back() = Sweep{*first, *last};
-        places.push_back(first->translation());
+        places.emplace_back(first->translation());
     }
     const std::string root = transforms.root_of(frame);
     contents.warnings.push_back(
@@ -135,7 +135,7 @@ void add_points(const LaserScan& scan, const Sweep& sweep, PointCloud& cloud) {
         const bool returned =
             std::isfinite(range) && range >= scan.min_range && range <= scan.max_range;
         if (!returned) {
-            cloud.positions.push_back(Eigen::Vector3f::Constant(std::nanf("")));
+            cloud.positions.emplace_back(Eigen::Vector3f::Constant(std::nanf("")));
             continue;
         }
         const double bearing = scan.start + static_cast<double>(i) * scan.step;
