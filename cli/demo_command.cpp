@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <utility>
 
 #include "cli/job.hpp"
 #include "cli/output_folder.hpp"
@@ -35,7 +36,7 @@ ExitCode demo(JobOptions options, const std::atomic<bool>& cancel) {
     options.truth = office.path().string();
     return run_job("run", options, cancel,
                    [](JobInput& input, const PipelineSettings& settings, const Context& context) {
-                       return reconstruct(input.scans, settings, context);
+                       return reconstruct(std::move(input.scans), settings, context);
                    });
 }
 

@@ -24,9 +24,9 @@ bool has_all(KnownPoses poses) {
 
 /// The scans by the poses of --poses, else by those of their files.
 ScanMap make_map(JobInput& input) {
-    if (!input.given_poses.empty()) return merge_scans(input.scans, input.given_poses);
+    if (!input.given_poses.empty()) return merge_scans(std::move(input.scans), input.given_poses);
     if (has_all(input.stored_poses)) {
-        ScanMap map = merge_scans(input.scans, input.stored_poses);
+        ScanMap map = merge_scans(std::move(input.scans), input.stored_poses);
         map.cloud.global_shift = input.map_shift;
         return map;
     }
@@ -60,6 +60,7 @@ void add_interpret_command(CLI::App& program, Action& action) {
     add_scans(verb, *options);
     add_poses(verb, *options);
     add_output(verb, *options);
+    add_memory(verb, *options);
     add_corrections(verb, *options);
     add_truth(verb, *options);
     add_job_options(verb, *options);

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
+#include <new>
 #include <optional>
 #include <thread>
 #include <utility>
@@ -21,6 +22,7 @@
 #include "roomscribe/io/poses_io.hpp"
 #include "roomscribe/pipeline/corrections.hpp"
 #include "roomscribe/pipeline/scoring.hpp"
+#include "roomscribe/pipeline/stage_folder.hpp"
 #include "roomscribe/pipeline/truth_folder.hpp"
 #include "roomscribe/pipeline/workspace.hpp"
 #include "roomscribe/preprocessing/line_center.hpp"
@@ -59,6 +61,10 @@ RunRecord make_record(std::string_view verb, const JobOptions& options,
                              ? options.num_threads
                              : static_cast<int>(std::thread::hardware_concurrency());
     return record;
+}
+
+std::string_view unit_word(const std::optional<LengthUnit>& unit) {
+    return unit ? length_unit_name(*unit) : "auto";
 }
 
 /// True if the points of two maps lie in the same places, to the rounding of files.
@@ -157,6 +163,53 @@ void note_unit(JobSummary& summary, Reconstruction& reconstruction) {
     }
 }
 
+/// The job itself; run_job minds its memory.
+ExitCode run_job_within(const MemoryLimit& memory, std::string_view verb, const JobOptions& options,
+                        const std::atomic<bool>& cancel, const Work& work) {
+    const auto start = std::chrono::steady_clock::now();
+    const PipelineSettings settings = resolve_settings(options);
+    const OutputFolder output(options.output);
+    Reconstruction reconstruction;
+    JobSummary summary;
+    summary.output = output.path().string();
+    {
+        ProgressDisplay display(options.progress);
+        Context context = make_context(options, cancel, display);
+        ReportInfo info;
+        info.run = make_record(verb, options, settings);
+        StageFolder stages(output.path(), hash_of_job(info.run, unit_word(options.unit)),
+                           options.resume ? RunStart::resumed : RunStart::afresh,
+                           context.on_message);
+        context.results = &stages;
+        const std::optional<std::string> corrections_path = find_corrections(options);
+        const std::vector<Correction> corrections = read_corrections(corrections_path);
+        if (corrections_path) info.run.inputs.push_back(describe_input(*corrections_path));
+        JobInput input = load_scans(options.inputs, context, memory);
+        load_poses(input, options, context);
+        summary.unit = convert_to_metres(input.scans, input.paths, options.unit, context);
+        convert_to_metres(input.given_poses, summary.unit);
+        convert_to_metres(input.stored_poses, summary.unit);
+        input.map_shift *= metres_per(summary.unit.unit);
+        reconstruction = work(input, settings, context);
+        context.throw_if_cancelled();
+        note_unit(summary, reconstruction);
+        summary.corrections = correct(reconstruction, corrections);
+        info.score = summary.score = score(options, reconstruction, context);
+        summary.report = write_results(output.path(), reconstruction, info, context);
+        stages.remove();
+    }
+    summary.seconds =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+
+    fmt::print("{}", options.as_json ? result_json(reconstruction, summary)
+                                     : result_tables(reconstruction, summary));
+    const std::string missing = missing_result(reconstruction);
+    if (missing.empty()) return ExitCode::done;
+    std::fflush(stdout);
+    fmt::print(stderr, "roomscribe: {}\n", missing);
+    return ExitCode::no_result;
+}
+
 }  // namespace
 
 Context make_context(const JobOptions& options, const std::atomic<bool>& cancel,
@@ -171,7 +224,8 @@ Context make_context(const JobOptions& options, const std::atomic<bool>& cancel,
     return context;
 }
 
-JobInput load_scans(std::span<const std::string> paths, const Context& context) {
+JobInput load_scans(std::span<const std::string> paths, const Context& context,
+                    const MemoryLimit& memory) {
     JobInput input;
     for (const std::string& path : paths) {
         context.throw_if_cancelled();
@@ -189,6 +243,7 @@ JobInput load_scans(std::span<const std::string> paths, const Context& context) 
             input.stored_poses.push_back(stored.map_from_scan);
             input.paths.push_back(path);
         }
+        memory.require_room(input.scans);
     }
     return input;
 }
@@ -210,43 +265,14 @@ void load_poses(JobInput& input, const JobOptions& options, const Context& conte
 
 ExitCode run_job(std::string_view verb, const JobOptions& options, const std::atomic<bool>& cancel,
                  const Work& work) {
-    const auto start = std::chrono::steady_clock::now();
-    const PipelineSettings settings = resolve_settings(options);
-    const OutputFolder output(options.output);
-    Reconstruction reconstruction;
-    JobSummary summary;
-    summary.output = output.path().string();
-    {
-        ProgressDisplay display(options.progress);
-        const Context context = make_context(options, cancel, display);
-        ReportInfo info;
-        info.run = make_record(verb, options, settings);
-        const std::optional<std::string> corrections_path = find_corrections(options);
-        const std::vector<Correction> corrections = read_corrections(corrections_path);
-        if (corrections_path) info.run.inputs.push_back(describe_input(*corrections_path));
-        JobInput input = load_scans(options.inputs, context);
-        load_poses(input, options, context);
-        summary.unit = convert_to_metres(input.scans, input.paths, options.unit, context);
-        convert_to_metres(input.given_poses, summary.unit);
-        convert_to_metres(input.stored_poses, summary.unit);
-        input.map_shift *= metres_per(summary.unit.unit);
-        reconstruction = work(input, settings, context);
-        context.throw_if_cancelled();
-        note_unit(summary, reconstruction);
-        summary.corrections = correct(reconstruction, corrections);
-        info.score = summary.score = score(options, reconstruction, context);
-        summary.report = write_results(output.path(), reconstruction, info, context);
+    const MemoryLimit memory(
+        options.memory.empty() ? std::nullopt : std::optional(parse_memory_size(options.memory)));
+    try {
+        return run_job_within(memory, verb, options, cancel, work);
+    } catch (const std::bad_alloc&) {
+        if (options.memory.empty()) throw;
+        throw UsageError(memory.exceeded_message());
     }
-    summary.seconds =
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-
-    fmt::print("{}", options.as_json ? result_json(reconstruction, summary)
-                                     : result_tables(reconstruction, summary));
-    const std::string missing = missing_result(reconstruction);
-    if (missing.empty()) return ExitCode::done;
-    std::fflush(stdout);
-    fmt::print(stderr, "roomscribe: {}\n", missing);
-    return ExitCode::no_result;
 }
 
 }  // namespace roomscribe::cli

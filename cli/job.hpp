@@ -11,6 +11,7 @@
 
 #include "cli/command.hpp"
 #include "cli/job_options.hpp"
+#include "cli/memory_limit.hpp"
 #include "cli/progress_display.hpp"
 #include "roomscribe/core/context.hpp"
 #include "roomscribe/model/scan.hpp"
@@ -35,8 +36,10 @@ struct JobInput {
 };
 
 /// Reads all scans of all files. Throws IoError if one cannot be read, or holds too few points, or
-/// points all in one place, so that nothing can be found in it.
-JobInput load_scans(std::span<const std::string> paths, const Context& context);
+/// points all in one place, so that nothing can be found in it; UsageError if the scans need more
+/// memory than there may be.
+JobInput load_scans(std::span<const std::string> paths, const Context& context,
+                    const MemoryLimit& memory = MemoryLimit(std::nullopt));
 
 /// Adds the poses of --poses. Throws IoError for a file that cannot be read or another number of
 /// poses than scans.

@@ -37,7 +37,7 @@ void add_scans(CLI::App& verb, JobOptions& options) {
     verb.add_option(
             "SCANS", options.inputs,
             "Scans: PCD, PLY, E57, LAS, PTX, PTS, XYZ, CSV, NPY, OBJ, UOS .3d, legacy VTK, depth "
-            "PNG, planar scans .tilt, a TUM RGB-D folder; all scans of a file are taken")
+            "PNG, planar scans .tilt, ROS .bag, a TUM RGB-D folder; all scans of a file are taken")
         ->type_name("")
         ->required();
     add_unit(verb, options.unit);
@@ -66,6 +66,18 @@ void add_output(CLI::App& verb, JobOptions& options) {
     verb.add_option("-o,--output", options.output, "Folder for the results, made if absent")
         ->type_name("FOLDER")
         ->required();
+}
+
+void add_memory(CLI::App& verb, JobOptions& options) {
+    verb.add_option("--memory", options.memory,
+                    "Memory to use at most: more is never taken; scans that need more are refused, "
+                    "and how much they need is said")
+        ->type_name("SIZE");
+}
+
+void add_resume(CLI::App& verb, JobOptions& options) {
+    verb.add_flag("--resume", options.resume,
+                  "Go on where a run into FOLDER with the same scans and settings was stopped");
 }
 
 void add_corrections(CLI::App& verb, JobOptions& options) {

@@ -19,6 +19,8 @@ struct JobOptions {
     std::vector<std::string> pose_files;  ///< what is known of where the scans stand
     std::optional<LengthUnit> unit;       ///< of the scans; empty: told by their size
     std::string output;
+    std::string memory;   ///< at most, "8G"; empty: as much as there is
+    bool resume = false;  ///< goes on where a run before it was stopped
     std::string
         corrections;    ///< file; empty: corrections.json in the output folder, if it is there
     std::string truth;  ///< folder; empty where nobody knows
@@ -45,6 +47,12 @@ void add_poses(CLI::App& verb, JobOptions& options);
 
 /// Declares -o, which the verb needs.
 void add_output(CLI::App& verb, JobOptions& options);
+
+/// Declares --memory.
+void add_memory(CLI::App& verb, JobOptions& options);
+
+/// Declares --resume.
+void add_resume(CLI::App& verb, JobOptions& options);
 
 /// Declares --corrections, which overrule what is found.
 void add_corrections(CLI::App& verb, JobOptions& options);

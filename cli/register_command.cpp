@@ -2,6 +2,7 @@
 #include "cli/register_command.hpp"
 
 #include <memory>
+#include <utility>
 
 #include "cli/job.hpp"
 
@@ -13,6 +14,8 @@ void add_register_command(CLI::App& program, Action& action) {
     add_scans(verb, *options);
     add_poses(verb, *options);
     add_output(verb, *options);
+    add_memory(verb, *options);
+    add_resume(verb, *options);
     add_truth(verb, *options);
     add_job_options(verb, *options);
     verb.callback([options, &action] {
@@ -20,7 +23,8 @@ void add_register_command(CLI::App& program, Action& action) {
             return run_job(
                 "register", *options, cancel,
                 [](JobInput& input, const PipelineSettings& settings, const Context& context) {
-                    return register_to_map(input.scans, settings, context, input.given_poses);
+                    return register_to_map(std::move(input.scans), settings, context,
+                                           input.given_poses);
                 });
         };
     });

@@ -2,6 +2,7 @@
 #include "cli/run_command.hpp"
 
 #include <memory>
+#include <utility>
 
 #include "cli/job.hpp"
 
@@ -13,6 +14,8 @@ void add_run_command(CLI::App& program, Action& action) {
     add_scans(verb, *options);
     add_poses(verb, *options);
     add_output(verb, *options);
+    add_memory(verb, *options);
+    add_resume(verb, *options);
     add_corrections(verb, *options);
     add_truth(verb, *options);
     add_job_options(verb, *options);
@@ -21,7 +24,8 @@ void add_run_command(CLI::App& program, Action& action) {
             return run_job(
                 "run", *options, cancel,
                 [](JobInput& input, const PipelineSettings& settings, const Context& context) {
-                    return reconstruct(input.scans, settings, context, input.given_poses);
+                    return reconstruct(std::move(input.scans), settings, context,
+                                       input.given_poses);
                 });
         };
     });

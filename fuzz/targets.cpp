@@ -19,6 +19,7 @@
 #include "roomscribe/io/npy.hpp"
 #include "roomscribe/io/point_cloud_io.hpp"
 #include "roomscribe/io/poses_io.hpp"
+#include "tests/support/rosbag_bytes.hpp"
 
 namespace roomscribe::fuzz {
 
@@ -257,6 +258,15 @@ Seeds scene_seeds() {
     return {scene_to_json(scene)};
 }
 
+Seeds bag_seeds() {
+    const test::BagTopic laser =
+        test::laser_topic({test::laser_message(1.0, "laser", {1.0F, 2.0F}),
+                           test::laser_message(2.0, "laser", {1.0F, 2.0F})});
+    const test::BagTopic tf = test::tf_topic({{1.0, "base", "laser", {0, 0, 0, 0, 0, 0, 1}},
+                                              {2.0, "base", "laser", {0, 0, 1, 0, 1, 0, 0}}});
+    return {test::bag_of({tf, laser}), test::bag_of({test::cloud_topic({test::cloud_message(2)})})};
+}
+
 Seeds registration_seeds() {
     Registration registration;
     registration.map_from_scan = {Transform::Identity(), std::nullopt};
@@ -286,6 +296,7 @@ constexpr Target all_targets[] = {
     {"vtk", [](Bytes bytes) { read_cloud("vtk", bytes); }, vtk_seeds},
     {"obj", [](Bytes bytes) { read_cloud("obj", bytes); }, obj_seeds},
     {"tilt", [](Bytes bytes) { read_cloud("tilt", bytes); }, tilt_seeds},
+    {"bag", [](Bytes bytes) { read_cloud("bag", bytes); }, bag_seeds},
     {"png", read_png_of, png_seeds},
     {"poses", [](Bytes bytes) { read_poses_of(bytes, "poses.txt"); }, pose_seeds},
     {"uos_pose", [](Bytes bytes) { read_poses_of(bytes, "scan.pose"); },

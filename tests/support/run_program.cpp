@@ -50,7 +50,8 @@ ProgramResult run_program(const std::filesystem::path& program,
     const TemporaryFolder folder;
     const std::filesystem::path out = folder / "stdout";
     const std::filesystem::path err = folder / "stderr";
-    const Clock::time_point deadline = Clock::now() + options.timeout;
+    const Clock::time_point start = Clock::now();
+    const Clock::time_point deadline = start + options.timeout;
     const pid_t pid = start_program(program, arguments, out, err);
 
     ProgramResult result;
@@ -67,7 +68,11 @@ ProgramResult run_program(const std::filesystem::path& program,
             to_interrupt = false;
             kill(pid, SIGINT);
         }
-        std::this_thread::sleep_for(std::chrono::milliseconds(2));
+        const bool is_time = options.kill_after && Clock::now() - start >= *options.kill_after;
+        const bool is_there = !options.kill_at_file.empty() &&
+                              std::filesystem::exists(options.kill_at_file, not_there_yet);
+        if (is_time || is_there) kill(pid, SIGKILL);
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
     result.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
     result.peak_memory = static_cast<std::size_t>(usage.ru_maxrss) * 1024;

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,10 @@ struct ProgramOptions {
     std::chrono::seconds timeout{180};
     /// Sends SIGINT as soon as the program has written something to stderr.
     bool interrupt_at_first_message = false;
+    /// Sends SIGKILL at that time after the start, unless the program has ended by then.
+    std::optional<std::chrono::steady_clock::duration> kill_after = std::nullopt;
+    /// Sends SIGKILL as soon as there is a file of that name.
+    std::filesystem::path kill_at_file = {};
 };
 
 /// Runs a program to its end, with no standard input.

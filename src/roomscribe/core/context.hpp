@@ -7,6 +7,8 @@
 
 namespace roomscribe {
 
+class ResultStore;
+
 /// How a computation runs, as opposed to what it computes: nothing in here changes a result.
 struct Context {
     /// Threads to use; 0 means as many as the machine has.
@@ -17,6 +19,8 @@ struct Context {
     std::function<void(std::string_view message)> on_message = {};
     /// When it becomes true, the computation throws Cancelled at its next check.
     const std::atomic<bool>* cancel = nullptr;
+    /// Where costly steps keep their results and find them again; none are kept without.
+    ResultStore* results = nullptr;
 
     void report_progress(std::string_view stage, double fraction) const {
         if (on_progress) on_progress(stage, fraction);

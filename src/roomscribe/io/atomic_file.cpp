@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <cerrno>
+#include <csignal>
 #include <cstdio>
 #include <cstring>
 #include <utility>
@@ -23,6 +24,14 @@ constexpr std::size_t buffer_size = 1U << 20U;
 std::filesystem::path temporary_name(const std::filesystem::path& path) {
     static std::atomic<unsigned> counter = 0;
     return path.parent_path() / fmt::format(".roomscribe-{}-{}.tmp", ::getpid(), counter++);
+}
+
+/// The process that wrote a file of that name; 0 if it is no temporary name.
+pid_t writer_of(const std::string& name) {
+    int pid = 0;
+    unsigned count = 0;
+    if (std::sscanf(name.c_str(), ".roomscribe-%d-%u.tmp", &pid, &count) != 2) return 0;
+    return fmt::format(".roomscribe-{}-{}.tmp", pid, count) == name && pid > 0 ? pid : 0;
 }
 
 }  // namespace
@@ -97,6 +106,18 @@ void write_file(const std::filesystem::path& path, std::string_view format,
     AtomicFile file(path, format);
     file.write(content);
     file.commit();
+}
+
+void remove_abandoned_files(const std::filesystem::path& folder) {
+    std::vector<std::filesystem::path> abandoned;
+    std::error_code error;
+    for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
+        const pid_t writer = writer_of(entry.path().filename().string());
+        if (writer > 0 && ::kill(writer, 0) != 0 && errno == ESRCH)
+            abandoned.push_back(entry.path());
+    }
+    for (const std::filesystem::path& path : abandoned)
+        std::filesystem::remove(path, error);
 }
 
 }  // namespace roomscribe

@@ -45,4 +45,7 @@ class AtomicFile {
 void write_file(const std::filesystem::path& path, std::string_view format,
                 std::string_view content);
 
+/// Removes from a folder the temporary files of AtomicFile whose process was killed and is gone.
+void remove_abandoned_files(const std::filesystem::path& folder);
+
 }  // namespace roomscribe

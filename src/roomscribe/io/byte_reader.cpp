@@ -58,6 +58,16 @@ MappedFile::~MappedFile() {
     ::munmap(const_cast<std::byte*>(data_), size_);
 }
 
+void let_go(std::span<const std::byte> mapped) {
+    // Whole pages alone: the others may be in use by who reads what lies beside.
+    static const auto page = static_cast<std::uintptr_t>(::sysconf(_SC_PAGESIZE));
+    const auto begin = reinterpret_cast<std::uintptr_t>(mapped.data());
+    const std::uintptr_t first = (begin + page - 1) / page * page;
+    const std::uintptr_t end = (begin + mapped.size()) / page * page;
+    if (first >= end) return;
+    ::madvise(reinterpret_cast<void*>(first), end - first, MADV_DONTNEED);
+}
+
 std::span<const std::byte> ByteReader::take(std::size_t size) {
     if (size > remaining()) {
         fail_at_byte(fmt::format("the file ends {} bytes too early", size - remaining()),

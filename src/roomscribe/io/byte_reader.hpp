@@ -32,6 +32,10 @@ class MappedFile {
     std::size_t size_ = 0;
 };
 
+/// Gives the memory back that bytes of a MappedFile take once they were touched: a file may be
+/// larger than memory. They may be touched again, and are then read again.
+void let_go(std::span<const std::byte> mapped);
+
 /// `value` with its bytes in the other order.
 template <typename Value>
 Value swap_bytes(Value value) {

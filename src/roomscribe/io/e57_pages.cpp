@@ -55,6 +55,7 @@ std::vector<std::size_t> find_damaged_pages(std::span<const std::byte> bytes,
             const auto content = bytes.subspan(page * e57_page_bytes, e57_page_content);
             if (crc32c(content) != stored_checksum(content.data())) damaged.push_back(page);
         }
+        let_go(bytes.subspan(begin * e57_page_bytes, (end - begin) * e57_page_bytes));
         return damaged;
     };
     const auto join = [](Pages a, const Pages& b) {

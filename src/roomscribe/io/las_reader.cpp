@@ -187,6 +187,7 @@ RecordBits find_used_bits(const std::byte* records, std::size_t record_bytes, st
             }
             std::memcpy(bits.data() + place, &all, word);
         }
+        let_go({records + begin * record_bytes, (end - begin) * record_bytes});
         return bits;
     };
     const auto join = [](RecordBits a, RecordBits b) {
@@ -267,7 +268,8 @@ FileContents read_las(const std::filesystem::path& path, const Context& context)
     const RecordBits used = find_used_bits(records, header.record_bytes, num_points, context);
     PointDecoder decoder(fields_to_decode(fields, used), num_points);
     decoder.quantize_positions(header.scale, header.offset);
-    decoder.decode(record_sources(fields, records), 0, num_points, std::endian::little, context);
+    decoder.decode_mapped({records, num_points * header.record_bytes}, std::endian::little,
+                          context);
     FileContents contents{decoder.finish(std::nullopt, std::nullopt),
                           "LAS",
                           fmt::format("1.{}, point format {}", header.minor, header.point_format),

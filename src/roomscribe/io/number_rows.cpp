@@ -116,6 +116,10 @@ ParsedBlock parse_block(const RowBlock& block, const RowFormat& format,
     return parsed;
 }
 
+std::span<const std::byte> bytes_of(std::string_view text) {
+    return std::as_bytes(std::span(text.data(), text.size()));
+}
+
 [[noreturn]] void fail_at(const ByteReader& reader, const char* bad_line, const RowFormat& format) {
     const std::string_view whole = reader.whole_text();
     const auto place = static_cast<std::size_t>(bad_line - whole.data());
@@ -150,6 +154,7 @@ std::vector<RowBlock> take_row_blocks(ByteReader& reader, std::size_t max_rows) 
         }
         if (rows == rows_per_block) {
             blocks.push_back({text.substr(begin, position - begin), rows});
+            let_go(bytes_of(blocks.back().text));
             begin = position;
             rows = 0;
         }
@@ -180,6 +185,7 @@ void read_rows(
         for (std::size_t i = 0; i < wave.size(); ++i) {
             if (parsed[i].bad_line != nullptr) fail_at(reader, parsed[i].bad_line, format);
             consume(parsed[i].rows, wave[i].num_rows);
+            let_go(bytes_of(wave[i].text));
         }
     }
 }

@@ -204,9 +204,8 @@ PointDecoder decode_binary(ByteReader& reader, std::span<const Field> fields,
                            std::uint64_t num_points, const Context& context) {
     reader.require_backed(num_points, record_bytes(fields), "points");
     PointDecoder decoder(fields, num_points);
-    const auto records = reader.take(num_points * record_bytes(fields));
-    decoder.decode(record_sources(fields, records.data()), 0, num_points, std::endian::little,
-                   context);
+    decoder.decode_mapped(reader.take(num_points * record_bytes(fields)), std::endian::little,
+                          context);
     return decoder;
 }
 

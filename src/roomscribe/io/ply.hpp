@@ -2,10 +2,12 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
 
 #include "roomscribe/core/context.hpp"
 #include "roomscribe/io/file_contents.hpp"
 #include "roomscribe/io/point_cloud_io.hpp"
+#include "roomscribe/io/point_encoder.hpp"
 
 namespace roomscribe {
 
@@ -17,5 +19,10 @@ namespace roomscribe {
 FileContents read_ply(const std::filesystem::path& path, const Context& context);
 void write_ply(const std::filesystem::path& path, const PointCloud& cloud, Encoding encoding,
                const Context& context);
+
+/// The same with more properties, one value per point each, behind those of the cloud. A channel of
+/// the cloud that has one of their names is renamed: "input_label".
+void write_ply(const std::filesystem::path& path, const PointCloud& cloud,
+               std::span<const ChannelView> more, Encoding encoding, const Context& context);
 
 }  // namespace roomscribe

@@ -68,8 +68,15 @@ void read_element(Body& body, const PlyElement& element, const Context& context,
     body.reader.require_backed(element.count, element.min_row_bytes(body.ascii),
                                "rows of element " + quote_text(element.name));
     if (!body.ascii && !element.has_lists()) {
-        const auto records = body.reader.take(element.count * record);
-        use(records.data(), body.order, std::size_t{0}, element.count);
+        constexpr std::size_t bytes_per_run = 1U << 24U;
+        const std::size_t rows =
+            std::max<std::size_t>(1, bytes_per_run / std::max<std::size_t>(1, record));
+        for (std::size_t first = 0; first < element.count; first += rows) {
+            const std::size_t count = std::min<std::size_t>(rows, element.count - first);
+            const auto records = body.reader.take(count * record);
+            use(records.data(), body.order, first, count);
+            let_go(records);
+        }
         return;
     }
     if (element.properties.empty()) return;

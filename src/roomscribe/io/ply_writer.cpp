@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <array>
 
 #include <fmt/format.h>
@@ -36,6 +37,9 @@ std::string_view encoding_name(Encoding encoding) {
     throw InvalidArgument("encoding", "binary_compressed",
                           "ascii, binary or binary_big_endian for PLY");
 }
+
+/// What must be converted before it is written is so for so many points at once.
+constexpr std::size_t points_per_part = 1U << 20U;
 
 /// PLY's own names: "uchar" is understood everywhere, "uint8" is not.
 std::string_view type_name(ScalarType type) {
@@ -109,15 +113,24 @@ void write_camera(AtomicFile& file, const PointCloud& cloud, Encoding encoding) 
 
 void write_ply(const std::filesystem::path& path, const PointCloud& cloud, Encoding encoding,
                const Context& context) {
-    const PointColumns points(cloud, FieldStyle::ply);
-    const std::string header = header_text(cloud, points, encoding);
+    write_ply(path, cloud, {}, encoding, context);
+}
+
+void write_ply(const std::filesystem::path& path, const PointCloud& cloud,
+               std::span<const ChannelView> more, Encoding encoding, const Context& context) {
+    const std::string header =
+        header_text(cloud, PointColumns(cloud, FieldStyle::ply, {0, 0}, more), encoding);
     AtomicFile file(path, "PLY");
     file.write(header);
-    if (encoding == Encoding::ascii) {
-        write_text(file, points, context);
-    } else {
-        const bool big = encoding == Encoding::binary_big_endian;
-        write_records(file, points, big ? std::endian::big : std::endian::little, context);
+    for (std::size_t first = 0; first < cloud.size(); first += points_per_part) {
+        const PointRange range{first, std::min(points_per_part, cloud.size() - first)};
+        const PointColumns points(cloud, FieldStyle::ply, range, more);
+        if (encoding == Encoding::ascii) {
+            write_text(file, points, context);
+        } else {
+            const bool big = encoding == Encoding::binary_big_endian;
+            write_records(file, points, big ? std::endian::big : std::endian::little, context);
+        }
     }
     if (cloud.sensor_pose) write_camera(file, cloud, encoding);
     file.commit();

@@ -20,6 +20,7 @@
 #include "roomscribe/io/pcd.hpp"
 #include "roomscribe/io/ply.hpp"
 #include "roomscribe/io/ptx.hpp"
+#include "roomscribe/io/rosbag.hpp"
 #include "roomscribe/io/text_points.hpp"
 #include "roomscribe/io/tilted_scans.hpp"
 #include "roomscribe/io/uos.hpp"
@@ -51,8 +52,8 @@ std::vector<FileContents> read_contents(const std::filesystem::path& path, const
         {".pts", read_text_points}, {".xyz", read_text_points}, {".txt", read_text_points},
         {".asc", read_text_points}, {".csv", read_text_points}, {".npy", read_npy_points},
         {".obj", read_obj},         {".png", read_depth_image}, {".tilt", read_tilted_scans}};
-    constexpr std::pair<std::string_view, ReadAll> several[] = {{".e57", read_e57},
-                                                                {".ptx", read_ptx}};
+    constexpr std::pair<std::string_view, ReadAll> several[] = {
+        {".e57", read_e57}, {".ptx", read_ptx}, {".bag", read_rosbag}};
     if (std::filesystem::is_directory(path)) {
         const std::filesystem::path index = index_of_scans(path);
         if (index.filename() == tum_index) return read_tum_folder(path, context);
@@ -76,7 +77,7 @@ std::vector<FileContents> read_contents(const std::filesystem::path& path, const
     const MappedFile file(path, "");
     throw IoError(file.path(), "", {}, fmt::format("the extension '{}' is unknown", extension),
                   "give a .pcd, .ply, .e57, .las, .ptx, .pts, .xyz, .txt, .asc, .csv, .npy, .obj, "
-                  ".png, .tilt, .3d or .vtk file, or a folder with depth.txt or scans.tilt");
+                  ".png, .tilt, .bag, .3d or .vtk file, or a folder with depth.txt or scans.tilt");
 }
 
 /// "hall.e57#2", or with the scan's own name.
@@ -196,7 +197,7 @@ Scan read_scan(const std::filesystem::path& path, const Context& context) {
         scans.push_back(std::move(one.scan));
         poses.push_back(one.map_from_scan);
     }
-    PointCloud map = merge_scans(scans, poses).cloud;
+    PointCloud map = merge_scans(std::move(scans), poses).cloud;
     map.global_shift = stored.front().map_shift;
     return {path.filename().string(), std::move(map)};
 }

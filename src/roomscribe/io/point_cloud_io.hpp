@@ -29,6 +29,7 @@ namespace roomscribe {
 //   .npy    N x 3 to 6, guessed columns          no                     as text
 //   .obj    vertices                             no                     colours
 //   .tilt   planar scans with tilts (7)          no                     grid, sensor pose
+//   .bag    ROS 1: PointCloud2, LaserScan (9)    no                     all (clouds); grid
 //   .png    a depth image of 16 bits (8)         no                     grid, sensor pose
 //   folder  with depth.txt (TUM RGB-D) (8),      no                     grid, pose
 //           or with scans.tilt (7)
@@ -47,6 +48,7 @@ namespace roomscribe {
 // (6) See text_points.hpp.
 // (7) See tilted_scans.hpp.
 // (8) See depth_images.hpp.
+// (9) See rosbag.hpp.
 //
 // `x y z` may be of any type. `nx ny nz` or `normal_x normal_y normal_z` of a floating type are the
 // normals; `red green blue` of uchar, or a packed 4-byte `rgb` or `rgba`, the colours (alpha is
@@ -74,7 +76,7 @@ struct WriteOptions {
 struct FileSummary {
     std::string name;      ///< what the file calls the scan; mostly empty
     std::string format;    ///< "PCD", "PLY", "E57", "LAS", "PTX", "PTS", "text", "UOS", "VTK",
-                           ///< "OBJ", "depth image", "tilted scans"
+                           ///< "OBJ", "depth image", "tilted scans", "ROS bag"
     std::string encoding;  ///< as the format calls it: "binary_compressed"
     std::size_t num_points = 0;
     std::vector<Field> fields;  ///< of a point, in file order, those that are not read too

@@ -258,6 +258,20 @@ void PointDecoder::decode(std::span<const FieldSource> sources, std::size_t firs
     });
 }
 
+void PointDecoder::decode_mapped(std::span<const std::byte> records, std::endian order,
+                                 const Context& context) {
+    constexpr std::size_t bytes_per_run = 1U << 24U;
+    const std::size_t record = record_bytes(fields_);
+    const std::size_t num_points = records.size() / record;
+    const std::size_t points_per_run = std::max<std::size_t>(1, bytes_per_run / record);
+    for (std::size_t first = 0; first < num_points; first += points_per_run) {
+        const std::size_t count = std::min(points_per_run, num_points - first);
+        const auto run = records.subspan(first * record, count * record);
+        decode(record_sources(fields_, run.data()), first, count, order, context);
+        let_go(run);
+    }
+}
+
 void PointDecoder::decode_run(const SourceRun& run) {
     decode_vectors(cloud_.positions, run, position_.fields, fields_, scale_,
                    offset_ - cloud_.global_shift);

@@ -51,6 +51,11 @@ class PointDecoder {
     PointCloud finish(const std::optional<Transform>& file_sensor_pose,
                       const std::optional<ScanGrid>& grid);
 
+    /// The same for all points, whose records lie in a MappedFile one behind another: the memory of
+    /// each run of them is given back once it is decoded.
+    void decode_mapped(std::span<const std::byte> records, std::endian order,
+                       const Context& context);
+
   private:
     struct Triple {
         std::array<std::size_t, 3> fields;

@@ -30,13 +30,14 @@ bool is_word(std::string_view name) {
            std::all_of(name.begin(), name.end(), [](char c) { return c > ' ' && c != '\x7f'; });
 }
 
-/// The values of a channel as doubles; PLY has no 64-bit integers.
-std::vector<double> as_doubles(const Channel& channel) {
-    std::vector<double> doubles(channel.values.size() / size_of(channel.type));
+/// Values of a channel as doubles; PLY has no 64-bit integers.
+std::vector<double> as_doubles(const Channel& channel, PointRange range) {
+    std::vector<double> doubles(range.count * channel.count);
+    const std::byte* first = channel.values.data() + range.first * channel.bytes_per_point();
     with_scalar_type(channel.type, [&]<typename Value>(std::type_identity<Value>) {
         for (std::size_t i = 0; i < doubles.size(); ++i) {
             Value value;
-            std::memcpy(&value, channel.values.data() + i * sizeof(Value), sizeof(Value));
+            std::memcpy(&value, first + i * sizeof(Value), sizeof(Value));
             doubles[i] = static_cast<double>(value);
             if (std::abs(doubles[i]) > largest_exact_integer) {
                 throw InvalidArgument("channel " + channel.name, fmt::format("{}", value),
@@ -45,6 +46,26 @@ std::vector<double> as_doubles(const Channel& channel) {
         }
     });
     return doubles;
+}
+
+/// The cloud's channels keep their names, but for those that are taken.
+std::vector<std::string> channel_names(const PointCloud& cloud, std::span<const ChannelView> more) {
+    std::vector<std::string> names;
+    for (const Channel& channel : cloud.channels)
+        names.push_back(channel.name);
+    const auto is_taken = [&](const std::string& name) {
+        return std::any_of(more.begin(), more.end(),
+                           [&name](const ChannelView& view) { return view.name == name; });
+    };
+    for (std::string& name : names) {
+        if (!is_taken(name)) continue;
+        std::string free_name = "input_" + name;
+        while (is_taken(free_name) ||
+               std::find(names.begin(), names.end(), free_name) != names.end())
+            free_name.insert(0, "input_");
+        name = free_name;
+    }
+    return names;
 }
 
 }  // namespace
@@ -71,7 +92,12 @@ void check_cloud(const PointCloud& cloud) {
     }
 }
 
-PointColumns::PointColumns(const PointCloud& cloud, FieldStyle style) : num_points_(cloud.size()) {
+PointColumns::PointColumns(const PointCloud& cloud, FieldStyle style)
+    : PointColumns(cloud, style, {0, cloud.size()}, {}) {}
+
+PointColumns::PointColumns(const PointCloud& cloud, FieldStyle style, PointRange range,
+                           std::span<const ChannelView> more)
+    : range_(range) {
     check_cloud(cloud);
     add_positions(cloud);
     if (!cloud.normals.empty()) {
@@ -80,16 +106,23 @@ PointColumns::PointColumns(const PointCloud& cloud, FieldStyle style) : num_poin
                 ? std::array<std::string, 3>{"normal_x", "normal_y", "normal_z"}
                 : std::array<std::string, 3>{"nx", "ny", "nz"};
         for (std::size_t k = 0; k < 3; ++k) {
-            add(names[k], ScalarType::float32, cloud.normals.data()->data() + k,
+            add(names[k], ScalarType::float32, (cloud.normals.data() + range.first)->data() + k,
                 sizeof(Eigen::Vector3f));
         }
     }
     if (!cloud.colors.empty()) add_colors(cloud, style);
     if (!cloud.intensities.empty()) {
-        add("intensity", ScalarType::float32, cloud.intensities.data(), sizeof(float));
+        add("intensity", ScalarType::float32, cloud.intensities.data() + range.first,
+            sizeof(float));
     }
-    for (const Channel& channel : cloud.channels)
-        add_channel(channel, style);
+    const std::vector<std::string> names = channel_names(cloud, more);
+    for (std::size_t i = 0; i < cloud.channels.size(); ++i)
+        add_channel(cloud.channels[i], names[i], style);
+    for (const ChannelView& view : more) {
+        check_length(view.name, view.values.size() / size_of(view.type), cloud.size());
+        add(std::string(view.name), view.type,
+            view.values.data() + range.first * size_of(view.type), size_of(view.type));
+    }
 }
 
 std::size_t PointColumns::record_bytes() const {
@@ -106,17 +139,17 @@ void PointColumns::add(std::string name, ScalarType type, const void* first, std
 void PointColumns::add_positions(const PointCloud& cloud) {
     const std::array<std::string, 3> names = {"x", "y", "z"};
     if (cloud.global_shift.isZero(0.0)) {
-        const auto* first = reinterpret_cast<const float*>(cloud.positions.data());
+        const auto* first = reinterpret_cast<const float*>(cloud.positions.data() + range_.first);
         for (std::size_t k = 0; k < 3; ++k) {
             add(names[k], ScalarType::float32, cloud.empty() ? nullptr : first + k,
                 sizeof(Eigen::Vector3f));
         }
         return;
     }
-    std::vector<double>& far = doubles_.emplace_back(3 * cloud.size());
-    for (std::size_t i = 0; i < cloud.size(); ++i) {
+    std::vector<double>& far = doubles_.emplace_back(3 * range_.count);
+    for (std::size_t i = 0; i < range_.count; ++i) {
         Eigen::Map<Eigen::Vector3d> position(far.data() + 3 * i);
-        position = cloud.positions[i].cast<double>() + cloud.global_shift;
+        position = cloud.positions[range_.first + i].cast<double>() + cloud.global_shift;
     }
     for (std::size_t k = 0; k < 3; ++k) {
         add(names[k], ScalarType::float64, cloud.empty() ? nullptr : far.data() + k,
@@ -128,35 +161,36 @@ void PointColumns::add_colors(const PointCloud& cloud, FieldStyle style) {
     if (style != FieldStyle::pcd) {
         const std::array<std::string, 3> names = {"red", "green", "blue"};
         for (std::size_t k = 0; k < 3; ++k) {
-            add(names[k], ScalarType::uint8, cloud.colors.data()->data() + k, 3);
+            add(names[k], ScalarType::uint8, (cloud.colors.data() + range_.first)->data() + k, 3);
         }
         return;
     }
-    packed_colors_.reserve(cloud.size());
-    for (const auto& [red, green, blue] : cloud.colors) {
+    packed_colors_.reserve(range_.count);
+    for (const auto& [red, green, blue] :
+         std::span(cloud.colors).subspan(range_.first, range_.count)) {
         packed_colors_.push_back(static_cast<std::uint32_t>(red) << 16U |
                                  static_cast<std::uint32_t>(green) << 8U | blue);
     }
     add("rgb", ScalarType::uint32, packed_colors_.data(), sizeof(std::uint32_t));
 }
 
-void PointColumns::add_channel(const Channel& channel, FieldStyle style) {
+void PointColumns::add_channel(const Channel& channel, std::string name, FieldStyle style) {
+    const std::byte* first = channel.values.data();
+    if (first != nullptr) first += range_.first * channel.bytes_per_point();
     if (style == FieldStyle::pcd) {
-        columns_.push_back({{channel.name, channel.type, channel.count},
-                            channel.values.data(),
-                            channel.bytes_per_point()});
+        columns_.push_back(
+            {{std::move(name), channel.type, channel.count}, first, channel.bytes_per_point()});
         return;
     }
     const bool widened = style == FieldStyle::ply &&
                          (channel.type == ScalarType::int64 || channel.type == ScalarType::uint64);
     const ScalarType type = widened ? ScalarType::float64 : channel.type;
-    const std::byte* first = channel.values.data();
     if (widened) {
-        first =
-            reinterpret_cast<const std::byte*>(doubles_.emplace_back(as_doubles(channel)).data());
+        first = reinterpret_cast<const std::byte*>(
+            doubles_.emplace_back(as_doubles(channel, range_)).data());
     }
     for (std::size_t k = 0; k < channel.count; ++k) {
-        add(channel.count == 1 ? channel.name : fmt::format("{}_{}", channel.name, k), type,
+        add(channel.count == 1 ? name : fmt::format("{}_{}", name, k), type,
             first == nullptr ? nullptr : first + k * size_of(type), channel.count * size_of(type));
     }
 }

@@ -7,6 +7,7 @@
 #include <list>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "roomscribe/core/context.hpp"
@@ -24,6 +25,19 @@ struct FieldColumn {
     std::size_t stride = 0;
 };
 
+/// A property of points whose values lie with somebody else, in native byte order.
+struct ChannelView {
+    std::string_view name;
+    ScalarType type = ScalarType::float32;
+    std::span<const std::byte> values;  ///< one per point
+};
+
+/// A run of points.
+struct PointRange {
+    std::size_t first = 0;
+    std::size_t count = 0;
+};
+
 /// How a format calls and holds the properties of points.
 enum class FieldStyle { pcd, ply, las };
 
@@ -38,17 +52,23 @@ class PointColumns {
     /// beyond 2^53).
     PointColumns(const PointCloud& cloud, FieldStyle style);
 
+    /// The same of some of the points alone, so that what must be converted stays small, and with
+    /// more properties. A property of the cloud that has the name of one of these is called
+    /// "input_" and that.
+    PointColumns(const PointCloud& cloud, FieldStyle style, PointRange range,
+                 std::span<const ChannelView> more);
+
     std::span<const FieldColumn> columns() const { return columns_; }
-    std::size_t num_points() const { return num_points_; }
+    std::size_t num_points() const { return range_.count; }
     std::size_t record_bytes() const;
 
   private:
     void add(std::string name, ScalarType type, const void* first, std::size_t stride);
     void add_positions(const PointCloud& cloud);
     void add_colors(const PointCloud& cloud, FieldStyle style);
-    void add_channel(const Channel& channel, FieldStyle style);
+    void add_channel(const Channel& channel, std::string name, FieldStyle style);
 
-    std::size_t num_points_;
+    PointRange range_;
     std::vector<FieldColumn> columns_;
     std::list<std::vector<double>> doubles_;  ///< values that the cloud holds otherwise
     std::vector<std::uint32_t> packed_colors_;

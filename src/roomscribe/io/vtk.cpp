@@ -92,9 +92,8 @@ FileContents read_vtk(const std::filesystem::path& path, const Context& context)
     if (ascii) {
         decode_text(reader, fields, header.num_points, true, decoder, context);
     } else {
-        const auto records = reader.take(header.num_points * record_bytes(fields));
-        decoder.decode(record_sources(fields, records.data()), 0, header.num_points,
-                       std::endian::big, context);
+        decoder.decode_mapped(reader.take(header.num_points * record_bytes(fields)),
+                              std::endian::big, context);
     }
     return {decoder.finish(std::nullopt, std::nullopt), "VTK", header.encoding, fields, {}};
 }

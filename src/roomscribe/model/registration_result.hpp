@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -50,7 +51,7 @@ struct RegistrationLink {
     std::vector<Eigen::Matrix<double, 6, 1>> unobservable;
     /// The other poses that the scans bear out, the likeliest first, when ambiguous.
     std::vector<Transform> rivals;
-    std::string_view stop_reason;  ///< of the last refinement
+    std::string stop_reason;  ///< of the last refinement
 };
 
 /// Scans in one frame: that of the first scan of the largest connected set, or that of known poses

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 #include "roomscribe/core/error.hpp"
 
@@ -47,45 +48,71 @@ void make_missing(PointCloud& cloud) {
     std::fill(cloud.positions.begin(), cloud.positions.end(), Eigen::Vector3f(nan, nan, nan));
 }
 
+void check_poses(std::span<const Scan> scans,
+                 std::span<const std::optional<Transform>> map_from_scan) {
+    if (scans.size() == map_from_scan.size()) return;
+    throw InvalidArgument("map_from_scan", std::to_string(map_from_scan.size()) + " poses",
+                          "one pose per scan");
+}
+
+/// A map with room for the scans and with the properties that all of them have.
+ScanMap empty_map(std::span<const Scan> scans) {
+    std::size_t size = 0;
+    for (const Scan& scan : scans)
+        size += scan.cloud.size();
+    ScanMap map;
+    map.cloud.positions.reserve(size);
+    if (all_have(scans, &PointCloud::normals)) map.cloud.normals.reserve(size);
+    if (all_have(scans, &PointCloud::colors)) map.cloud.colors.reserve(size);
+    if (all_have(scans, &PointCloud::intensities)) map.cloud.intensities.reserve(size);
+    map.cloud.channels = common_channels(scans);
+    for (Channel& channel : map.cloud.channels)
+        channel.values.reserve(size * channel.bytes_per_point());
+    if (!scans.empty()) map.cloud.global_shift = scans.front().cloud.global_shift;
+    return map;
+}
+
+/// Takes from a scan what the map has room for.
+void append_scan(Scan scan, const std::optional<Transform>& map_from_scan, ScanMap& map) {
+    PointCloud& cloud = scan.cloud;
+    MapSection section{scan.name, static_cast<std::uint32_t>(map.cloud.size()),
+                       static_cast<std::uint32_t>(cloud.size()), std::nullopt, cloud.global_shift};
+    if (map_from_scan) {
+        section.sensor_position = *map_from_scan * scan.sensor_position();
+        section.sensor_axes = map_from_scan->linear() * scan.sensor_axes();
+        transform_in_place(cloud, *map_from_scan);
+    } else {
+        make_missing(cloud);
+    }
+    append(map.cloud.positions, cloud.positions);
+    if (map.cloud.normals.capacity() > 0) append(map.cloud.normals, cloud.normals);
+    if (map.cloud.colors.capacity() > 0) append(map.cloud.colors, cloud.colors);
+    if (map.cloud.intensities.capacity() > 0) append(map.cloud.intensities, cloud.intensities);
+    for (Channel& channel : map.cloud.channels) {
+        for (const Channel& part : cloud.channels) {
+            if (same_channel(channel, part)) append(channel.values, part.values);
+        }
+    }
+    map.sections.push_back(std::move(section));
+}
+
 }  // namespace
 
 ScanMap merge_scans(std::span<const Scan> scans,
                     std::span<const std::optional<Transform>> map_from_scan) {
-    if (scans.size() != map_from_scan.size()) {
-        throw InvalidArgument("map_from_scan", std::to_string(map_from_scan.size()) + " poses",
-                              "one pose per scan");
-    }
-    ScanMap map;
-    map.cloud.channels = common_channels(scans);
-    const bool with_normals = all_have(scans, &PointCloud::normals);
-    const bool with_colors = all_have(scans, &PointCloud::colors);
-    const bool with_intensities = all_have(scans, &PointCloud::intensities);
-    if (!scans.empty()) map.cloud.global_shift = scans.front().cloud.global_shift;
+    check_poses(scans, map_from_scan);
+    ScanMap map = empty_map(scans);
+    for (std::size_t i = 0; i < scans.size(); ++i)
+        append_scan(scans[i], map_from_scan[i], map);
+    return map;
+}
 
-    for (std::size_t i = 0; i < scans.size(); ++i) {
-        const Scan& scan = scans[i];
-        MapSection section{scan.name, static_cast<std::uint32_t>(map.cloud.size()),
-                           static_cast<std::uint32_t>(scan.cloud.size()), std::nullopt,
-                           scan.cloud.global_shift};
-        PointCloud placed = scan.cloud;
-        if (map_from_scan[i]) {
-            transform_in_place(placed, *map_from_scan[i]);
-            section.sensor_position = *map_from_scan[i] * scan.sensor_position();
-            section.sensor_axes = map_from_scan[i]->linear() * scan.sensor_axes();
-        } else {
-            make_missing(placed);
-        }
-        append(map.cloud.positions, placed.positions);
-        if (with_normals) append(map.cloud.normals, placed.normals);
-        if (with_colors) append(map.cloud.colors, placed.colors);
-        if (with_intensities) append(map.cloud.intensities, placed.intensities);
-        for (Channel& channel : map.cloud.channels) {
-            for (const Channel& part : placed.channels) {
-                if (same_channel(channel, part)) append(channel.values, part.values);
-            }
-        }
-        map.sections.push_back(std::move(section));
-    }
+ScanMap merge_scans(std::vector<Scan>&& scans,
+                    std::span<const std::optional<Transform>> map_from_scan) {
+    check_poses(scans, map_from_scan);
+    ScanMap map = empty_map(scans);
+    for (std::size_t i = 0; i < scans.size(); ++i)
+        append_scan(std::exchange(scans[i], {}), map_from_scan[i], map);
     return map;
 }
 

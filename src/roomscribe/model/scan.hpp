@@ -53,6 +53,10 @@ struct ScanMap {
 ScanMap merge_scans(std::span<const Scan> scans,
                     std::span<const std::optional<Transform>> map_from_scan);
 
+/// The same, where the scans are not needed any more: each makes room as soon as it is in the map.
+ScanMap merge_scans(std::vector<Scan>&& scans,
+                    std::span<const std::optional<Transform>> map_from_scan);
+
 /// A map of one cloud that stays as it is; where it was seen from is what its file says, else
 /// unknown.
 ScanMap map_of_cloud(Scan scan);

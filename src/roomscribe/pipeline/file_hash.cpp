@@ -32,73 +32,64 @@ std::uint64_t round_of(std::uint64_t accumulator, std::uint64_t lane) {
     return std::rotl(accumulator + lane * prime_2, 31) * prime_1;
 }
 
-/// The streaming form of XXH64; step numbers are those of the specification.
-class Xxh64 {
-  public:
-    void add(std::span<const std::byte> bytes) {
-        total_ += bytes.size();
-        if (num_pending_ > 0) {
-            const std::size_t taken = std::min(stripe - num_pending_, bytes.size());
-            std::copy_n(bytes.begin(), taken, pending_.begin() + num_pending_);
-            num_pending_ += taken;
-            bytes = bytes.subspan(taken);
-            if (num_pending_ < stripe) return;
-            add_stripe(pending_.data());
-            num_pending_ = 0;
-        }
-        for (; bytes.size() >= stripe; bytes = bytes.subspan(stripe))
-            add_stripe(bytes.data());
-        std::copy(bytes.begin(), bytes.end(), pending_.begin());
-        num_pending_ = bytes.size();
-    }
-
-    std::uint64_t finish() const {
-        std::uint64_t hash = total_ >= stripe ? converged() : prime_5;  // steps 1 and 3
-        hash += total_;                                                 // step 4
-        const std::byte* next = pending_.data();                        // step 5
-        std::size_t left = num_pending_;
-        for (; left >= 8; left -= 8, next += 8) {
-            hash ^= round_of(0, read_word<std::uint64_t>(next));
-            hash = std::rotl(hash, 27) * prime_1 + prime_4;
-        }
-        if (left >= 4) {
-            hash ^= read_word<std::uint32_t>(next) * prime_1;
-            hash = std::rotl(hash, 23) * prime_2 + prime_3;
-            left -= 4;
-            next += 4;
-        }
-        for (; left > 0; --left, ++next) {
-            hash = std::rotl(hash ^ read_word<std::uint8_t>(next) * prime_5, 11) * prime_1;
-        }
-        hash = (hash ^ (hash >> 33U)) * prime_2;  // step 6
-        hash = (hash ^ (hash >> 29U)) * prime_3;
-        return hash ^ (hash >> 32U);
-    }
-
-  private:
-    static constexpr std::size_t stripe = 32;
-
-    void add_stripe(const std::byte* bytes) {  // step 2
-        for (std::size_t i = 0; i < 4; ++i) {
-            accumulators_[i] = round_of(accumulators_[i], read_word<std::uint64_t>(bytes + 8 * i));
-        }
-    }
-    std::uint64_t converged() const {
-        std::uint64_t hash = std::rotl(accumulators_[0], 1) + std::rotl(accumulators_[1], 7) +
-                             std::rotl(accumulators_[2], 12) + std::rotl(accumulators_[3], 18);
-        for (const std::uint64_t accumulator : accumulators_) {
-            hash = (hash ^ round_of(0, accumulator)) * prime_1 + prime_4;
-        }
-        return hash;
-    }
-
-    std::array<std::uint64_t, 4> accumulators_{prime_1 + prime_2, prime_2, 0, 0 - prime_1};
-    std::array<std::byte, stripe> pending_{};
-    std::size_t num_pending_ = 0;
-    std::uint64_t total_ = 0;
-};
-
 }  // namespace
+
+Xxh64::Xxh64() : accumulators_{prime_1 + prime_2, prime_2, 0, 0 - prime_1} {}
+
+void Xxh64::add(std::span<const std::byte> bytes) {
+    total_ += bytes.size();
+    if (num_pending_ > 0) {
+        const std::size_t taken = std::min(stripe - num_pending_, bytes.size());
+        std::copy_n(bytes.begin(), taken, pending_.begin() + num_pending_);
+        num_pending_ += taken;
+        bytes = bytes.subspan(taken);
+        if (num_pending_ < stripe) return;
+        add_stripe(pending_.data());
+        num_pending_ = 0;
+    }
+    for (; bytes.size() >= stripe; bytes = bytes.subspan(stripe))
+        add_stripe(bytes.data());
+    std::copy(bytes.begin(), bytes.end(), pending_.begin());
+    num_pending_ = bytes.size();
+}
+
+std::uint64_t Xxh64::finish() const {
+    std::uint64_t hash = total_ >= stripe ? converged() : prime_5;  // steps 1 and 3
+    hash += total_;                                                 // step 4
+    const std::byte* next = pending_.data();                        // step 5
+    std::size_t left = num_pending_;
+    for (; left >= 8; left -= 8, next += 8) {
+        hash ^= round_of(0, read_word<std::uint64_t>(next));
+        hash = std::rotl(hash, 27) * prime_1 + prime_4;
+    }
+    if (left >= 4) {
+        hash ^= read_word<std::uint32_t>(next) * prime_1;
+        hash = std::rotl(hash, 23) * prime_2 + prime_3;
+        left -= 4;
+        next += 4;
+    }
+    for (; left > 0; --left, ++next) {
+        hash = std::rotl(hash ^ read_word<std::uint8_t>(next) * prime_5, 11) * prime_1;
+    }
+    hash = (hash ^ (hash >> 33U)) * prime_2;  // step 6
+    hash = (hash ^ (hash >> 29U)) * prime_3;
+    return hash ^ (hash >> 32U);
+}
+
+void Xxh64::add_stripe(const std::byte* bytes) {  // step 2
+    for (std::size_t i = 0; i < 4; ++i) {
+        accumulators_[i] = round_of(accumulators_[i], read_word<std::uint64_t>(bytes + 8 * i));
+    }
+}
+
+std::uint64_t Xxh64::converged() const {
+    std::uint64_t hash = std::rotl(accumulators_[0], 1) + std::rotl(accumulators_[1], 7) +
+                         std::rotl(accumulators_[2], 12) + std::rotl(accumulators_[3], 18);
+    for (const std::uint64_t accumulator : accumulators_) {
+        hash = (hash ^ round_of(0, accumulator)) * prime_1 + prime_4;
+    }
+    return hash;
+}
 
 std::uint64_t hash_bytes(std::span<const std::byte> bytes) {
     Xxh64 hash;

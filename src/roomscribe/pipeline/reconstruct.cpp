@@ -4,7 +4,10 @@
 #include <algorithm>
 #include <iterator>
 #include <numeric>
+#include <string>
 #include <utility>
+
+#include <fmt/format.h>
 
 #include "roomscribe/interpretation/bent_walls.hpp"
 #include "roomscribe/interpretation/component_support.hpp"
@@ -17,6 +20,8 @@
 #include "roomscribe/interpretation/paper_rules/label_by_rules.hpp"
 #include "roomscribe/interpretation/paper_rules/orient_by_door.hpp"
 #include "roomscribe/interpretation/paper_rules/plane_quadrilaterals.hpp"
+#include "roomscribe/model/kept_result.hpp"
+#include "roomscribe/model/result_bytes.hpp"
 #include "roomscribe/preprocessing/saturated_returns.hpp"
 #include "roomscribe/preprocessing/scan_origin.hpp"
 #include "roomscribe/structure/planar_surfaces.hpp"
@@ -275,7 +280,7 @@ Reconstruction map_apart(std::span<const Scan> scans, const Registration& whole,
     }
     part.components.emplace_back(chosen.size());
     std::iota(part.components[0].begin(), part.components[0].end(), std::size_t{0});
-    apart.map = merge_scans(own, part.map_from_scan);
+    apart.map = merge_scans(std::move(own), part.map_from_scan);
     return apart;
 }
 
@@ -292,25 +297,45 @@ void take_labels(const Reconstruction& apart, std::span<const std::size_t> scans
     }
 }
 
+ScanRegistration register_or_recall(std::span<const Scan> scans, KnownPoses known_poses,
+                                    const PipelineSettings& settings, const Context& context) {
+    ScanRegistration found;
+    if (recall(context, "registration", found.registration, found.derived_values)) return found;
+    found = register_scans(scans, known_poses, seed_of(settings), settings.registration, context);
+    keep(context, "registration", found.registration, found.derived_values);
+    return found;
+}
+
+void interpret_or_recall(Reconstruction& map, const std::string& name,
+                         const PipelineSettings& settings, const Context& context) {
+    if (recall(context, name, map.scene, map.labels, map.derived_values, map.stage_costs)) return;
+    interpret_map(map, settings, context);
+    keep(context, name, map.scene, map.labels, map.derived_values, map.stage_costs);
+}
+
 }  // namespace
 
 Reconstruction register_to_map(std::span<const Scan> scans, const PipelineSettings& settings,
+                               const Context& context, KnownPoses known_poses) {
+    return register_to_map(std::vector<Scan>(scans.begin(), scans.end()), settings, context,
+                           known_poses);
+}
+
+Reconstruction register_to_map(std::vector<Scan>&& scans, const PipelineSettings& settings,
                                const Context& context, KnownPoses known_poses) {
     check_settings(settings);
     Reconstruction result;
     StageTimer timer(result.stage_costs);
 
-    ScanRegistration registration =
-        register_scans(scans, known_poses, seed_of(settings), settings.registration, context);
+    ScanRegistration registration = register_or_recall(scans, known_poses, settings, context);
     timer.finish("register");
     result.registration = std::move(registration.registration);
-    result.map = merge_scans(scans, result.registration->map_from_scan);
+    result.derived_values = std::move(registration.derived_values);
     const auto& components = result.registration->components;
     for (std::size_t i = 1; i < components.size(); ++i)
         result.apart.push_back(map_apart(scans, *result.registration, components[i]));
+    result.map = merge_scans(std::move(scans), result.registration->map_from_scan);
     timer.finish("merge");
-
-    result.derived_values = std::move(registration.derived_values);
     return result;
 }
 
@@ -318,22 +343,30 @@ void interpret_map(Reconstruction& reconstruction, const PipelineSettings& setti
                    const Context& context) {
     check_settings(settings);
     infer_scanner(reconstruction);
-    const std::optional<ScanMap> cleaned = without_saturated_returns(reconstruction.map);
-    const ScanMap& map = cleaned ? *cleaned : reconstruction.map;
+    const std::vector<HiddenPoint> hidden = hide_saturated_returns(reconstruction.map);
+    const ScanMap& map = reconstruction.map;
     if (settings.interpretation.method == InterpretationMethod::paper) {
         interpret_as_paper(reconstruction, map, settings, context);
     } else {
         interpret_by_default(reconstruction, map, settings, context);
     }
     measure_support(map, reconstruction.labels, reconstruction.scene.components, context);
+    put_back(hidden, reconstruction.map);
 }
 
 Reconstruction reconstruct(std::span<const Scan> scans, const PipelineSettings& settings,
                            const Context& context, KnownPoses known_poses) {
-    Reconstruction result = register_to_map(scans, settings, context, known_poses);
-    interpret_map(result, settings, context);
+    return reconstruct(std::vector<Scan>(scans.begin(), scans.end()), settings, context,
+                       known_poses);
+}
+
+Reconstruction reconstruct(std::vector<Scan>&& scans, const PipelineSettings& settings,
+                           const Context& context, KnownPoses known_poses) {
+    Reconstruction result = register_to_map(std::move(scans), settings, context, known_poses);
+    interpret_or_recall(result, "interpretation", settings, context);
     for (std::size_t i = 0; i < result.apart.size(); ++i) {
-        interpret_map(result.apart[i], settings, context);
+        interpret_or_recall(result.apart[i], fmt::format("interpretation-{}", i + 2), settings,
+                            context);
         take_labels(result.apart[i], result.registration->components[i + 1], result);
     }
     return result;

@@ -38,6 +38,10 @@ using KnownPoses = std::span<const std::optional<Transform>>;
 Reconstruction register_to_map(std::span<const Scan> scans, const PipelineSettings& settings = {},
                                const Context& context = {}, KnownPoses known_poses = {});
 
+/// The same, where the scans are not needed any more: they take no memory beside their map.
+Reconstruction register_to_map(std::vector<Scan>&& scans, const PipelineSettings& settings = {},
+                               const Context& context = {}, KnownPoses known_poses = {});
+
 /// A registered map -> scene and labels, added to a reconstruction that has its map.
 void interpret_map(Reconstruction& reconstruction, const PipelineSettings& settings = {},
                    const Context& context = {});
@@ -45,6 +49,10 @@ void interpret_map(Reconstruction& reconstruction, const PipelineSettings& setti
 /// The whole job: register_to_map, then interpret_map of each map. Points of the map's scans that
 /// have no place in it get the labels that they have in their own map, of no instance here.
 Reconstruction reconstruct(std::span<const Scan> scans, const PipelineSettings& settings = {},
+                           const Context& context = {}, KnownPoses known_poses = {});
+
+/// The same, where the scans are not needed any more.
+Reconstruction reconstruct(std::vector<Scan>&& scans, const PipelineSettings& settings = {},
                            const Context& context = {}, KnownPoses known_poses = {});
 
 }  // namespace roomscribe

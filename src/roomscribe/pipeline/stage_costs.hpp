@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "roomscribe/model/byte_archive.hpp"
+
 namespace roomscribe {
 
 /// What a stage cost.
@@ -14,6 +16,11 @@ struct StageCost {
     double seconds = 0.0;
     std::size_t peak_memory = 0;  ///< bytes that the process had held at most when the stage ended
 };
+
+template <typename Archive, Either<StageCost> Value>
+void exchange(Archive& archive, Value& cost) {
+    archive(cost.stage, cost.seconds, cost.peak_memory);
+}
 
 /// Bytes of memory that the process has held at most so far; 0 where the system does not tell.
 std::size_t peak_memory();

@@ -2,6 +2,7 @@
 #include "roomscribe/pipeline/workspace.hpp"
 
 #include <algorithm>
+#include <array>
 #include <system_error>
 #include <utility>
 
@@ -11,6 +12,7 @@
 #include "roomscribe/core/error.hpp"
 #include "roomscribe/export/json.hpp"
 #include "roomscribe/io/atomic_file.hpp"
+#include "roomscribe/io/ply.hpp"
 #include "roomscribe/io/point_cloud_io.hpp"
 #include "roomscribe/io/poses_io.hpp"
 #include "roomscribe/pipeline/file_coordinates.hpp"
@@ -21,38 +23,25 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-bool has_channel(const PointCloud& cloud, std::string_view name) {
-    return std::any_of(cloud.channels.begin(), cloud.channels.end(),
-                       [name](const Channel& channel) { return channel.name == name; });
-}
-
 template <typename Value>
-void add_channel(PointCloud& cloud, const std::string& name, ScalarType type,
-                 const std::vector<Value>& values) {
-    for (Channel& channel : cloud.channels) {
-        if (channel.name != name) continue;
-        // The input has a property of that name, a truth say: it is carried through renamed.
-        std::string free_name = "input_" + name;
-        while (has_channel(cloud, free_name))
-            free_name.insert(0, "input_");
-        channel.name = free_name;
-    }
-    const auto bytes = std::as_bytes(std::span(values));
-    cloud.channels.push_back({name, type, 1, {bytes.begin(), bytes.end()}});
+ChannelView view_of(std::string_view name, ScalarType type, const std::vector<Value>& values) {
+    return {name, type, std::as_bytes(std::span(values))};
 }
 
-PointCloud labelled_cloud(const PointCloud& cloud, const PointLabels& labels) {
+void write_labelled(const std::filesystem::path& path, const PointCloud& cloud,
+                    const PointLabels& labels, const Context& context) {
     const std::size_t size = cloud.size();
     if (labels.labels.size() != size || labels.instances.size() != size ||
         labels.confidences.size() != size) {
         throw InvalidArgument("labels", fmt::format("{} labels", labels.labels.size()),
                               fmt::format("one per point of the map, {}", size));
     }
-    PointCloud labelled = cloud;
-    add_channel(labelled, "label", ScalarType::uint8, labels.labels);
-    add_channel(labelled, "instance", ScalarType::int32, labels.instances);
-    add_channel(labelled, "confidence", ScalarType::float32, labels.confidences);
-    return labelled;
+    // The input may have properties of these names, a truth say: they are carried through renamed.
+    const std::array<ChannelView, 3> more{
+        view_of("label", ScalarType::uint8, labels.labels),
+        view_of("instance", ScalarType::int32, labels.instances),
+        view_of("confidence", ScalarType::float32, labels.confidences)};
+    write_ply(path, cloud, more, Encoding::binary, context);
 }
 
 /// "registration.icp.max_iterations" becomes an object in an object.
@@ -90,6 +79,7 @@ void prepare_output_folder(const std::filesystem::path& folder) {
     std::filesystem::create_directories(folder, error);
     if (error) refuse_folder(folder, error.message());
     if (!std::filesystem::is_directory(folder, error)) refuse_folder(folder, "is not a folder");
+    remove_abandoned_files(folder);
     // Never committed: it only shows, before hours of work, that a file can be made here.
     const AtomicFile trial(folder / "run.json", "JSON");
 }
@@ -130,8 +120,7 @@ void write_registration(const std::filesystem::path& folder, const Reconstructio
 void write_interpretation(const std::filesystem::path& folder, const Reconstruction& reconstruction,
                           const Context& context) {
     const PointCloud& map = reconstruction.map.cloud;
-    const PointCloud labelled = labelled_cloud(map, reconstruction.labels);
-    write_point_cloud(folder / "labels.ply", labelled, {.encoding = Encoding::binary}, context);
+    write_labelled(folder / "labels.ply", map, reconstruction.labels, context);
     write_file(folder / "scene.json", "JSON",
                scene_to_json(in_file_coordinates(reconstruction.scene, map.global_shift)));
 }

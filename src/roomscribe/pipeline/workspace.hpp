@@ -34,7 +34,8 @@ struct RunRecord {
 InputFile describe_input(const std::filesystem::path& path);
 
 /// Makes the folder, with its parents, and tries whether a file can be written in it: called before
-/// the work starts, so that a long run does not end without a place for its result. Throws IoError.
+/// the work starts, so that a long run does not end without a place for its result. Half-written
+/// files of killed runs are removed. Throws IoError.
 void prepare_output_folder(const std::filesystem::path& folder);
 
 /// Where in a result's folder the i-th map of `Reconstruction::apart` has its own: "set-2" is the

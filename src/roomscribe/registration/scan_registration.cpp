@@ -11,6 +11,8 @@
 
 #include "roomscribe/core/error.hpp"
 #include "roomscribe/core/quantile.hpp"
+#include "roomscribe/model/kept_result.hpp"
+#include "roomscribe/model/result_bytes.hpp"
 #include "roomscribe/preprocessing/saturated_returns.hpp"
 #include "roomscribe/preprocessing/scan_statistics.hpp"
 #include "roomscribe/registration/graph/link_consistency.hpp"
@@ -120,8 +122,11 @@ std::vector<RegistrationLink> link_in_sequence(std::span<const PreparedScan> pre
     std::vector<RegistrationLink> links;
     for (std::size_t scan = 1; scan < prepared.size(); ++scan) {
         context.throw_if_cancelled();
-        RegistrationLink& link = links.emplace_back(
-            register_pair(prepared[scan], prepared[scan - 1], seed, settings.pair, context));
+        RegistrationLink& link =
+            links.emplace_back(kept(context, fmt::format("pair-{}-{}", scan, scan - 1), [&] {
+                return register_pair(prepared[scan], prepared[scan - 1], seed, settings.pair,
+                                     context);
+            }));
         link.source = scan;
         link.target = scan - 1;
         context.report_progress(

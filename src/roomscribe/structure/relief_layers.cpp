@@ -210,24 +210,32 @@ ReliefLayers find_relief_layers(std::span<const Eigen::Vector3f> positions,
     layers.layer_of_point.assign(points.size(), no_layer);
     if (points.empty()) return layers;
     const PlaneAxes axes = plane_axes(plane.normal);
-    std::map<TilePlace, std::vector<Sample>> samples;
+    const auto place_of = [&](const Eigen::Vector3d& point) {
+        return std::pair(point.dot(axes.u) / tile_size, point.dot(axes.v) / tile_size);
+    };
+    std::map<TilePlace, std::vector<std::uint32_t>> numbers;
     for (std::uint32_t i = 0; i < points.size(); ++i) {
-        const Eigen::Vector3d point = positions[points[i].point].cast<double>();
-        const double u = point.dot(axes.u) / tile_size;
-        const double v = point.dot(axes.v) / tile_size;
-        const TilePlace place{static_cast<std::int32_t>(std::floor(u)),
-                              static_cast<std::int32_t>(std::floor(v))};
-        const int column = static_cast<int>(stretches * (u - std::floor(u)));
-        const int row = static_cast<int>(stretches * (v - std::floor(v)));
-        samples[place].push_back({plane.signed_distance(point),
-                                  static_cast<double>(points[i].noise), 1.0, i,
-                                  row * stretches + column});
+        const auto [u, v] = place_of(positions[points[i].point].cast<double>());
+        numbers[{static_cast<std::int32_t>(std::floor(u)),
+                 static_cast<std::int32_t>(std::floor(v))}]
+            .push_back(i);
     }
     std::map<TilePlace, Tile> tiles;
     std::uint32_t num_modes = 0;
-    for (auto& [place, of_tile] : samples) {
-        Tile& tile = tiles[place];
-        tile.modes = find_modes(of_tile);
+    std::vector<Sample> samples;  // of one tile: they are large beside their points
+    for (auto& [tile_place, of_tile] : numbers) {
+        samples.clear();
+        for (const std::uint32_t i : of_tile) {
+            const Eigen::Vector3d point = positions[points[i].point].cast<double>();
+            const auto [u, v] = place_of(point);
+            const int column = static_cast<int>(stretches * (u - std::floor(u)));
+            const int row = static_cast<int>(stretches * (v - std::floor(v)));
+            samples.push_back({plane.signed_distance(point), static_cast<double>(points[i].noise),
+                               1.0, i, row * stretches + column});
+        }
+        of_tile = {};
+        Tile& tile = tiles[tile_place];
+        tile.modes = find_modes(samples);
         tile.first = num_modes;
         num_modes += static_cast<std::uint32_t>(tile.modes.size());
     }

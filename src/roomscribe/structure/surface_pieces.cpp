@@ -94,7 +94,13 @@ std::vector<std::vector<std::uint32_t>> share_out(const ScanMap& map, const Surf
             }
         }
     });
+    std::vector<std::size_t> counts(patches.size(), 0);
+    for (const std::uint32_t patch : nearest) {
+        if (patch != nobody) ++counts[patch];
+    }
     std::vector<std::vector<std::uint32_t>> points(patches.size());
+    for (std::size_t patch = 0; patch < patches.size(); ++patch)
+        points[patch].reserve(counts[patch]);
     for (const std::uint32_t i : sort_by_voxel(sample)) {
         if (nearest[i] != nobody) points[nearest[i]].push_back(i);
     }
@@ -120,26 +126,42 @@ class LayerSplitter {
           tile_size_(std::max(min_tile_size, 6.0 * sample.spacing)) {}
 
     /// The connected pieces of every layer near a grown patch. The points come voxel by voxel.
-    std::vector<Surface> split(const PlanarPatch& grown,
-                               std::span<const std::uint32_t> points) const {
+    /// They are taken, for they are many.
+    std::vector<Surface> split(const PlanarPatch& grown, std::vector<std::uint32_t> points) const {
+        std::vector<std::vector<std::uint32_t>> points_of = sort_by_layer(grown, points);
+        points = {};
+        std::vector<Surface> surfaces;
+        for (auto& of_layer : points_of) {
+            add_pieces(of_layer, grown, surfaces);
+            of_layer = {};
+        }
+        return surfaces;
+    }
+
+  private:
+    std::vector<std::vector<std::uint32_t>> sort_by_layer(
+        const PlanarPatch& grown, std::span<const std::uint32_t> points) const {
         std::vector<ReliefPoint> relief;
         relief.reserve(points.size());
         for (const std::uint32_t point : points)
             relief.push_back({point, sample_.noise_of_voxel[sample_.voxel_of_point[point]]});
         const ReliefLayers layers =
             find_relief_layers(map_.cloud.positions, relief, grown.plane, tile_size_);
+        relief = {};
+        std::vector<std::size_t> counts(layers.num_layers, 0);
+        for (const std::uint32_t layer : layers.layer_of_point) {
+            if (layer != no_layer) ++counts[layer];
+        }
         std::vector<std::vector<std::uint32_t>> points_of(layers.num_layers);
+        for (std::size_t layer = 0; layer < counts.size(); ++layer)
+            points_of[layer].reserve(counts[layer]);
         for (std::size_t i = 0; i < points.size(); ++i) {
             if (layers.layer_of_point[i] != no_layer)
                 points_of[layers.layer_of_point[i]].push_back(points[i]);
         }
-        std::vector<Surface> surfaces;
-        for (const auto& of_layer : points_of)
-            add_pieces(of_layer, grown, surfaces);
-        return surfaces;
+        return points_of;
     }
 
-  private:
     std::vector<LayerVoxel> gather_voxels(std::span<const std::uint32_t> points) const {
         std::vector<LayerVoxel> voxels;
         for (std::uint32_t begin = 0; begin < points.size();) {
@@ -223,6 +245,10 @@ class LayerSplitter {
                    std::vector<Surface>& surfaces) const {
         if (piece.size() < min_voxels) return;
         Surface surface;
+        std::size_t count = 0;
+        for (const std::uint32_t i : piece)
+            count += voxels[i].count;
+        surface.map_points.reserve(count);
         for (const std::uint32_t i : piece) {
             surface.middles.push_back(voxels[i].middle);
             const auto first = points.begin() + voxels[i].first;
@@ -271,14 +297,14 @@ std::vector<Surface> split_into_surfaces(const ScanMap& map, const SurfaceSample
                                          const NeighborGraph& graph,
                                          const PlaneGrowingSettings& settings,
                                          const Context& context) {
-    const std::vector<std::vector<std::uint32_t>> points =
+    std::vector<std::vector<std::uint32_t>> points =
         share_out(map, sample, grown, PatchCandidates(grown, graph),
                   settings.distance_tolerance + relief_reach, context);
     const LayerSplitter splitter(map, sample, graph, settings);
     std::vector<std::vector<Surface>> pieces(grown.size());
     parallel_for(context, grown.size(), 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i)
-            pieces[i] = splitter.split(grown[i], points[i]);
+            pieces[i] = splitter.split(grown[i], std::move(points[i]));
     });
     std::vector<Surface> surfaces;
     for (auto& of_patch : pieces) {

@@ -8,6 +8,8 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include "io_test_clouds.hpp"
 #include "roomscribe/core/error.hpp"
@@ -45,6 +47,25 @@ TEST(AtomicFile, LeavesNothingBehindAfterAnException) {
     EXPECT_THROW(interrupted(), std::runtime_error);
     EXPECT_EQ(test::read_bytes(folder / "a.txt"), "old");
     EXPECT_EQ(count_files(folder.path()), 1U);
+}
+
+TEST(AtomicFile, FilesOfKilledProcessesAreRemovedAndNoOthers) {
+    const test::TemporaryFolder folder;
+    const pid_t gone = fork();
+    if (gone == 0) {
+        AtomicFile file(folder / "a.txt", "text");
+        file.write(std::string(5U << 20U, 'x'));
+        raise(SIGKILL);
+    }
+    waitpid(gone, nullptr, 0);
+    test::write_bytes(folder / ".roomscribe-1x-0.tmp", "no such name");
+    AtomicFile alive(folder / "b.txt", "text");
+    EXPECT_EQ(count_files(folder.path()), 3U);
+    remove_abandoned_files(folder.path());
+    EXPECT_EQ(count_files(folder.path()), 2U);
+    alive.commit();
+    EXPECT_TRUE(std::filesystem::exists(folder / "b.txt"));
+    EXPECT_FALSE(std::filesystem::exists(folder / "a.txt"));
 }
 
 TEST(AtomicFile, SaysWhyItCannotBeCreated) {

@@ -108,7 +108,7 @@ TEST(MergeScans, AChannelOfAnotherTypeIsAnotherChannel) {
 TEST(MergeScans, WantsOnePosePerScan) {
     const std::vector<Scan> scans(2);
     EXPECT_THROW(merge_scans(scans, std::vector<std::optional<Transform>>(1)), InvalidArgument);
-    EXPECT_TRUE(merge_scans({}, {}).cloud.empty());
+    EXPECT_TRUE(merge_scans(std::span<const Scan>(), {}).cloud.empty());
 }
 
 TEST(MapOfCloud, KnowsTheSensorOnlyIfTheFileDoes) {

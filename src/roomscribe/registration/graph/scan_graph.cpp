@@ -2,8 +2,13 @@
 #include "roomscribe/registration/graph/scan_graph.hpp"
 
 #include <algorithm>
+#include <string>
 #include <utility>
 
+#include <fmt/format.h>
+
+#include "roomscribe/model/kept_result.hpp"
+#include "roomscribe/model/result_bytes.hpp"
 #include "roomscribe/registration/graph/link_consistency.hpp"
 #include "roomscribe/registration/graph/link_forest.hpp"
 #include "roomscribe/registration/graph/pair_proposal.hpp"
@@ -75,18 +80,24 @@ class LinkFinder {
 
     void register_without_guess(std::size_t source, std::size_t target) {
         context_.throw_if_cancelled();
-        RegistrationLink link =
-            register_pair(scans_[source], scans_[target], seed_, pair_, context_);
+        RegistrationLink link = kept(context_, fmt::format("pair-{}-{}", source, target), [&] {
+            return register_pair(scans_[source], scans_[target], seed_, pair_, context_);
+        });
         link.source = source;
         link.target = target;
         links_.push_back(std::move(link));
     }
 
     /// Empty if the scans do not bear the guess out.
-    std::optional<RegistrationLink> register_with_guess(const NearbyPair& pair) const {
+    std::optional<RegistrationLink> register_with_guess(const NearbyPair& pair) {
         context_.throw_if_cancelled();
-        RegistrationLink link = register_pair_from(scans_[pair.source], scans_[pair.target],
-                                                   pair.target_from_source, pair_, context_);
+        // Known poses and loops may each have their guess.
+        const std::string name =
+            fmt::format("guess-{}-{}-{}", pair.source, pair.target, num_guesses_++);
+        RegistrationLink link = kept(context_, name, [&] {
+            return register_pair_from(scans_[pair.source], scans_[pair.target],
+                                      pair.target_from_source, pair_, context_);
+        });
         link.source = pair.source;
         link.target = pair.target;
         if (link.verdict != LinkVerdict::accepted) return std::nullopt;
@@ -220,6 +231,7 @@ class LinkFinder {
     const Context& context_;
     LinkTolerance tolerance_;
     std::vector<RegistrationLink> links_;
+    std::size_t num_guesses_ = 0;  ///< that were tried so far
 };
 
 }  // namespace
