@@ -80,6 +80,19 @@ void add_backs(const FurnitureVoxels& all, const RoomSurfaces& surfaces,
     }
 }
 
+#ifdef FURN_DEBUG
+}  // namespace
+struct DebugDraft {
+    std::vector<std::uint32_t> voxels;
+    PieceForm form;
+    PieceVerdict verdict;
+};
+std::vector<DebugDraft>& debug_drafts() {
+    static std::vector<DebugDraft> drafts;
+    return drafts;
+}
+namespace {
+#endif
 /// A piece that is more likely none, or another's part, is not listed.
 constexpr double min_confidence = 0.5;
 
@@ -100,6 +113,11 @@ class FurnitureBuilder {
     void add(PieceDraft& draft, Furniture& result) {
         const PieceForm form = measure_form(all_, slabs_, draft, surfaces_);
         const PieceVerdict verdict = judge_piece(form);
+#ifdef FURN_DEBUG
+        debug_drafts().push_back({{}, form, verdict});
+        for (const std::uint32_t i : draft.voxels)
+            debug_drafts().back().voxels.push_back(all_.voxels[i].voxel);
+#endif
         if (!verdict.is_furniture) {
             if (!verdict.kind.empty()) add_thing(draft, form, verdict, result);
             return;
