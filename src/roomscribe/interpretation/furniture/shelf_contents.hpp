@@ -3,6 +3,7 @@
 
 #include "roomscribe/interpretation/furniture/furniture_voxels.hpp"
 #include "roomscribe/interpretation/furniture/piece_drafts.hpp"
+#include "roomscribe/interpretation/furniture/piece_kinds.hpp"
 
 namespace roomscribe {
 
@@ -10,6 +11,6 @@ namespace roomscribe {
 /// its back. A board is a height at which level surface is seen along most of the length, which the
 /// tops of books are not. What shows fewer than two boards between its lower end and its top is not
 /// open and stays as it is.
-void drop_shelf_contents(const FurnitureVoxels& all, PieceDraft& draft);
+void drop_shelf_contents(const FurnitureVoxels& all, const PieceForm& form, PieceDraft& draft);
 
 }  // namespace roomscribe
