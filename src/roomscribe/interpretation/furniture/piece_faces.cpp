@@ -171,6 +171,19 @@ WallRectangle extent_of(std::span<const SidePoint> points, double tolerance) {
 
 }  // namespace
 
+PanelKind kind_of_panel(const WallRectangle& extent, bool is_whole) {
+    const bool is_drawer =
+        extent.height() <= max_drawer_height && extent.width() >= 0.8 * extent.height();
+    PanelKind kind;
+    kind.may_be_several = is_drawer ? extent.width() > 2.0 * max_door_width
+                                    : extent.width() > max_door_width;
+    // A chest of drawers is as wide as high; so is a pair of low doors.
+    kind.may_be_several =
+        kind.may_be_several || (!is_drawer && extent.height() > 0.5 && is_whole);
+    kind.name = kind.may_be_several ? "front" : is_drawer ? "drawer" : "door";
+    return kind;
+}
+
 std::optional<FrontSide> find_front_side(const FurnitureVoxels& all, const PieceDraft& draft,
                                          const PieceForm& form,
                                          std::span<const PlanarPatch> patches,
@@ -248,14 +261,9 @@ std::vector<FrontPanel> find_front_panels(const PointCloud& map, const SurfaceSa
             panel.side = s;
             panel.extent = part;
             panel.rms = noise;
-            const bool is_drawer =
-                part.height() <= max_drawer_height && part.width() >= 0.8 * part.height();
-            panel.may_be_several =
-                is_drawer ? part.width() > 2.0 * max_door_width : part.width() > max_door_width;
-            // A chest of drawers is as wide as high; so is a pair of low doors.
-            panel.may_be_several =
-                panel.may_be_several || (!is_drawer && part.height() > 0.5 && parts.size() == 1);
-            panel.kind = panel.may_be_several ? "front" : is_drawer ? "drawer" : "door";
+            const PanelKind kind = kind_of_panel(part, parts.size() == 1);
+            panel.may_be_several = kind.may_be_several;
+            panel.kind = kind.name;
             panels.push_back(panel);
         }
     }
