@@ -113,7 +113,7 @@ class FurnitureBuilder {
           next_instance_(first_instance) {}
 
     void add(PieceDraft& draft, Furniture& result) {
-        const PieceForm form = measure_form(all_, slabs_, draft, surfaces_);
+        PieceForm form = measure_form(all_, slabs_, draft, surfaces_);
         const PieceVerdict verdict = judge_piece(form);
 #ifdef FURN_DEBUG
         debug_drafts().push_back({{}, form, verdict});
@@ -138,6 +138,7 @@ class FurnitureBuilder {
             }
         }
         if (verdict.kind == "shelf") drop_shelf_contents(all_, form, draft);
+        if (is_flat_on_top(verdict.kind)) drop_things_on_top(form, draft);
         const std::size_t number = result.components.size();
         Component piece = make_component(draft, verdict, Label::furniture);
         piece.box = box_of(all_, draft, form, axes_, voxel_size_);
@@ -185,6 +186,24 @@ class FurnitureBuilder {
     }
 
   private:
+    /// Kinds whose top ends them; of seats and beds backs rise above.
+    static bool is_flat_on_top(std::string_view kind) {
+        constexpr std::array<std::string_view, 5> kinds{"tv_unit", "bench", "coffee_table",
+                                                        "nightstand", "cabinet"};
+        return std::find(kinds.begin(), kinds.end(), kind) != kinds.end();
+    }
+
+    /// Screens and lamps on the main slab.
+    void drop_things_on_top(PieceForm& form, PieceDraft& draft) const {
+        constexpr double slack = 0.04;
+        if (draft.slabs.empty()) return;
+        const double top = slabs_[draft.slabs.front()].height + slack;
+        std::erase_if(draft.voxels, [&](std::uint32_t i) {
+            return all_.voxels[i].height > top + all_.voxels[i].noise;
+        });
+        form.top = std::min(form.top, top);
+    }
+
     Component make_component(const PieceDraft& draft, const PieceVerdict& verdict, Label label) {
         const FurnitureVoxel& some = all_.voxels[draft.voxels.front()];
         Component component;

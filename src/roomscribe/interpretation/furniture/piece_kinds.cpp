@@ -134,10 +134,10 @@ PieceVerdict judge_hanging(const PieceForm& form) {
     if (form.rectangle.length < 0.3) return {};
     // Kitchens' wall units are 0.30 to 0.37 deep, more with a door open; a board for books 0.15 to
     // 0.3.
-    if (height >= 0.3 && form.rectangle.length >= 0.38 && form.planar > min_planar &&
-        form.face >= 0.12 && Range{0.2, 0.75}.holds(form.depth))
+    if (height >= 0.4 && form.rectangle.length >= 0.38 && form.planar > 0.75 &&
+        form.upright >= 0.3 && form.face >= 0.12 && Range{0.2, 0.75}.holds(form.depth))
         return furniture("wall_unit", "box that hangs on a wall", 0.8);
-    if (form.is_at_wall && height < 0.5 && form.level >= 0.3 &&
+    if (form.is_at_wall && form.depth >= 0.12 && height < 0.5 && form.level >= 0.3 &&
         Range{0.12, 0.4}.holds(form.rectangle.width) && form.rectangle.length >= 0.5) {
         return furniture("wall_shelf", "board that hangs on a wall", 0.7);
     }
@@ -146,7 +146,8 @@ PieceVerdict judge_hanging(const PieceForm& form) {
 
 PieceVerdict judge_seat(const PieceForm& form) {
     const double across = form.rectangle.length;
-    if (across > 1.1) return {};
+    constexpr double min_flat = 0.4;  // cushions are less flat than boards, leaves less than either
+    if (across > 1.1 || form.planar < min_flat) return {};
     if (form.top >= 0.65) {
         if (form.rectangle.width >= 0.7 && form.upright + form.level > 0.6)
             return furniture("armchair", "seat with arms and a back", 0.7);
@@ -193,7 +194,20 @@ PieceVerdict judge_table(const PieceForm& form) {
             return furniture("drawer_unit", "box of a drawer unit's size", 0.8);
         return furniture("cabinet", "closed box with a top", 0.85);
     }
-    if (form.seat > 0.85) return furniture("counter", "top at a counter's height", 0.7);
+    // Parts of tops, and what stands on some: no table is so small.
+    constexpr double min_table_area = 0.35;
+    if (size.area() < min_table_area)
+        return furniture("table", "part of a top at a table's height", 0.3, "thing");
+    if (form.seat > 0.85) {
+        constexpr double min_counter_length = 1.0;
+        const bool is_long = size.length >= min_counter_length;
+        if (!is_long && form.upright >= 0.78 && form.planar >= 0.9) {
+            return furniture(size.length <= 0.65 ? "drawer_unit" : "cabinet",
+                             "box at a counter's height", 0.65);
+        }
+        return furniture("counter", "top at a counter's height", is_long ? 0.7 : 0.3,
+                         is_long ? "" : "thing");
+    }
     if (size.width <= 0.85 && size.length >= 1.0)
         return furniture("desk", "top at a desk's height, open below", 0.85);
     return furniture("table", "top at a table's height, open below", 0.8);
@@ -202,6 +216,9 @@ PieceVerdict judge_table(const PieceForm& form) {
 PieceVerdict judge_tall(const PieceForm& form) {
     const PlanRectangle& size = form.rectangle;
     if (form.planar < min_planar || form.face < 0.2) return {};
+    // Of a box a front, a side and a top are seen; between boards there are many faces.
+    const bool may_be_open = form.level >= 0.08 && size.length >= 0.6 && form.depth <= 0.5;
+    if (form.face < 0.25 * form.surface && !may_be_open) return {};
     // A leaf that stands open is thin, and 1.95 to 2.1 m high and to 1.0 m wide; of a wardrobe's
     // front the wall is as far behind as it is deep, if it was seen.
     const bool is_front_only = !form.reaches_ceiling && form.face >= 0.6 * form.surface &&
