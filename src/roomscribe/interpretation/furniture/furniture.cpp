@@ -378,7 +378,7 @@ Furniture find_furniture(const ScanMap& map, const SurfaceSample& sample,
     for (PieceDraft& draft : draft_pieces(all, slabs))
         drafts.push_back(std::move(draft));
     context.throw_if_cancelled();
-    join_worktop_rows(all, slabs, drafts);
+    join_worktop_rows(all, slabs, surfaces, drafts);
     add_backs(all, surfaces, drafts);
     FurnitureBuilder builder(sample, all, slabs, surfaces, patches, sample.voxel_size, first_instance);
     for (PieceDraft& draft : drafts) {

@@ -258,6 +258,13 @@ bool is_box_at_wall(const PieceForm& form) {
            form.upright >= 0.75 && form.planar >= 0.9;
 }
 
+/// The fronts of a kitchen's row whose worktop was not seen.
+bool is_row_front(const PieceForm& form) {
+    return form.bottom <= 0.25 && Range{0.75, 1.0}.holds(form.top) &&
+           Range{1.2, 5.0}.holds(form.rectangle.length) && Range{0.5, 0.75}.holds(form.depth) &&
+           form.upright >= 0.75 && form.planar >= 0.9;
+}
+
 /// Things without a slab whose top is that of a chair or low cabinet. A cabinet of which only
 /// sides are seen stands before a wall.
 ///
@@ -273,6 +280,7 @@ PieceVerdict judge_plain(const PieceForm& form) {
                    ? furniture("drawer_unit", "sides of a box of a drawer unit's size", 0.65)
                    : furniture("cabinet", "sides of a box before a wall", 0.65);
     }
+    if (is_row_front(form)) return furniture("base_unit", "fronts of a row before a wall", 0.65);
     const double surface = form.surface;
     if (size.length > 2.5 && size.width > 1.2) return {};
     if (form.planar >= min_planar && form.upright >= 0.5 && size.length >= 0.35 &&
