@@ -178,8 +178,8 @@ void interpret_by_default(Reconstruction& reconstruction, const ScanMap& map,
     stages.finish("furniture", 0.97);
     std::vector<MountingFace> faces =
         faces_for_fixtures(sample, patches, surfaces, openings, furniture, num_before);
-    std::vector<Fixture> fixtures = find_fixtures_by(
-        map, sample, faces, seed_of(settings), settings.interpretation.fixtures, context);
+    std::vector<Fixture> fixtures = find_fixtures_by(map, sample, faces, seed_of(settings),
+                                                     settings.interpretation.fixtures, context);
     part_fronts_by_fixtures(furniture, num_before, faces, fixtures);
 
     reconstruction.scene.room_from_map = surfaces.room_from_map;

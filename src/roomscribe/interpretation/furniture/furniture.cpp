@@ -81,28 +81,16 @@ void add_backs(const FurnitureVoxels& all, const RoomSurfaces& surfaces,
     }
 }
 
-#ifdef FURN_DEBUG
-}  // namespace
-struct DebugDraft {
-    std::vector<std::uint32_t> voxels;
-    PieceForm form;
-    PieceVerdict verdict;
-};
-std::vector<DebugDraft>& debug_drafts() {
-    static std::vector<DebugDraft> drafts;
-    return drafts;
-}
-namespace {
-#endif
 /// A piece that is more likely none, or another's part, is not listed.
 constexpr double min_confidence = 0.5;
 
 /// Makes the components of pieces and their faces.
 class FurnitureBuilder {
   public:
-    FurnitureBuilder(const SurfaceSample& sample, const FurnitureVoxels& all, std::span<const LevelSlab> slabs,
-                     const RoomSurfaces& surfaces, std::span<const PlanarPatch> patches,
-                     double voxel_size, std::int32_t first_instance)
+    FurnitureBuilder(const SurfaceSample& sample, const FurnitureVoxels& all,
+                     std::span<const LevelSlab> slabs, const RoomSurfaces& surfaces,
+                     std::span<const PlanarPatch> patches, double voxel_size,
+                     std::int32_t first_instance)
         : sample_(sample),
           all_(all),
           slabs_(slabs),
@@ -115,11 +103,6 @@ class FurnitureBuilder {
     void add(PieceDraft& draft, Furniture& result) {
         PieceForm form = measure_form(all_, slabs_, draft, surfaces_);
         const PieceVerdict verdict = judge_piece(form);
-#ifdef FURN_DEBUG
-        debug_drafts().push_back({{}, form, verdict});
-        for (const std::uint32_t i : draft.voxels)
-            debug_drafts().back().voxels.push_back(all_.voxels[i].voxel);
-#endif
         if (!verdict.is_furniture) {
             if (!verdict.kind.empty()) add_thing(draft, form, verdict, result);
             return;
@@ -380,7 +363,8 @@ Furniture find_furniture(const ScanMap& map, const SurfaceSample& sample,
     context.throw_if_cancelled();
     join_worktop_rows(all, slabs, surfaces, drafts);
     add_backs(all, surfaces, drafts);
-    FurnitureBuilder builder(sample, all, slabs, surfaces, patches, sample.voxel_size, first_instance);
+    FurnitureBuilder builder(sample, all, slabs, surfaces, patches, sample.voxel_size,
+                             first_instance);
     for (PieceDraft& draft : drafts) {
         if (!draft.voxels.empty()) builder.add(draft, result);
     }

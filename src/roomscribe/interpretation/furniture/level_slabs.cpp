@@ -276,8 +276,8 @@ std::optional<Cut> cut_desks(const FurnitureVoxels& all, const LevelSlab& slab) 
     const double start = rectangle.center.dot(rectangle.axis) - rectangle.length / 2.0;
     const Cut cut{rectangle.axis, start + rectangle.length / count, 0.0};
     constexpr double min_meeting_width = 0.9;
-    const bool may_be_one = rectangle.width >= min_meeting_width &&
-                            rectangle.length <= max_meeting_length;
+    const bool may_be_one =
+        rectangle.width >= min_meeting_width && rectangle.length <= max_meeting_length;
     if (may_be_one && count_supports(all, slab, cut) == 0) return std::nullopt;
     return cut;
 }
@@ -287,13 +287,12 @@ std::size_t count_beside(const FurnitureVoxels& all, const PlanRectangle& rectan
                          const Eigen::Vector2d& across_cut, double half, double kept) {
     constexpr double chair_reach = 0.45;
     const Eigen::Vector2d along_cut(-across_cut.y(), across_cut.x());
-    return static_cast<std::size_t>(std::count_if(
-        all.voxels.begin(), all.voxels.end(), [&](const FurnitureVoxel& voxel) {
+    return static_cast<std::size_t>(
+        std::count_if(all.voxels.begin(), all.voxels.end(), [&](const FurnitureVoxel& voxel) {
             if (!voxel.is_core || voxel.height < 0.35 || voxel.height > 1.15) return false;
             const Eigen::Vector2d from = voxel.place.head<2>() - rectangle.center;
             const double out = std::abs(from.dot(across_cut)) - half;
-            return out >= 0.05 && out <= chair_reach &&
-                   std::abs(from.dot(along_cut)) <= kept / 2.0;
+            return out >= 0.05 && out <= chair_reach && std::abs(from.dot(along_cut)) <= kept / 2.0;
         }));
 }
 
@@ -321,8 +320,8 @@ std::optional<Cut> halve(const FurnitureVoxels& all, const LevelSlab& slab) {
         most = beside;
         best = cut;
     }
-    const bool may_be_one = rectangle.width <= max_meeting_width &&
-                            rectangle.length <= max_meeting_length;
+    const bool may_be_one =
+        rectangle.width <= max_meeting_width && rectangle.length <= max_meeting_length;
     return supports == 0 && may_be_one ? std::nullopt : best;
 }
 

@@ -175,11 +175,10 @@ PanelKind kind_of_panel(const WallRectangle& extent, bool is_whole) {
     const bool is_drawer =
         extent.height() <= max_drawer_height && extent.width() >= 0.8 * extent.height();
     PanelKind kind;
-    kind.may_be_several = is_drawer ? extent.width() > 2.0 * max_door_width
-                                    : extent.width() > max_door_width;
-    // A chest of drawers is as wide as high; so is a pair of low doors.
     kind.may_be_several =
-        kind.may_be_several || (!is_drawer && extent.height() > 0.5 && is_whole);
+        is_drawer ? extent.width() > 2.0 * max_door_width : extent.width() > max_door_width;
+    // A chest of drawers is as wide as high; so is a pair of low doors.
+    kind.may_be_several = kind.may_be_several || (!is_drawer && extent.height() > 0.5 && is_whole);
     kind.name = kind.may_be_several ? "front" : is_drawer ? "drawer" : "door";
     return kind;
 }

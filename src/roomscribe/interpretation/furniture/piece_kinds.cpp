@@ -29,7 +29,8 @@ constexpr double min_hanging_bottom = 0.9;
 /// closed if most of their height is.
 double closed_share(const FurnitureVoxels& all, const PieceDraft& draft,
                     const PlanRectangle& rectangle, double below) {
-    // m: worktops overhang by 20 to 40 mm, plinths are set back 50; of a stool it is no leg's place.
+    // m: worktops overhang by 20 to 40 mm, plinths are set back 50; of a stool it is no leg's
+    // place.
     const double rim = std::min(0.12, 0.15 * rectangle.width);
     constexpr double lowest = 0.1;  // m: plinths and castors
     constexpr double column_width = 0.1;
@@ -360,7 +361,8 @@ PieceVerdict judge_piece(const PieceForm& form) {
     if (form.depth > 0.0 && form.depth <= max_thin_depth) return judge_thin(form);
     if (form.bottom >= min_hanging_bottom) return judge_hanging(form);
     if (form.num_slabs == 0 && form.top < 1.25) return judge_plain(form);
-    if (form.num_slabs == 0) return form.bottom > max_standing_bottom ? PieceVerdict{} : judge_tall(form);
+    if (form.num_slabs == 0)
+        return form.bottom > max_standing_bottom ? PieceVerdict{} : judge_tall(form);
     if (form.top >= 1.3) return judge_tall(form);
     if (form.seat <= 0.66) {
         const bool is_seat = form.seat >= 0.36 && form.rectangle.length <= 1.1;

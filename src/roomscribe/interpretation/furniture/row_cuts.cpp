@@ -71,9 +71,9 @@ double step_at(const std::vector<double>& line, std::size_t bin, std::size_t win
 bool is_bridged_by_boards(const FurnitureVoxels& all, std::span<const std::uint32_t> members,
                           const Eigen::Vector2d& axis, double at) {
     constexpr double reach = 0.25;
-    constexpr double slice = 0.03;     // m: a board's thickness
-    constexpr double min_gap = 0.15;   // m: books are higher
-    constexpr std::size_t few = 4;     // voxels of one board on one side
+    constexpr double slice = 0.03;    // m: a board's thickness
+    constexpr double min_gap = 0.15;  // m: books are higher
+    constexpr std::size_t few = 4;    // voxels of one board on one side
     std::map<std::int32_t, std::array<std::size_t, 2>> counts;
     for (const std::uint32_t i : members) {
         const FurnitureVoxel& voxel = all.voxels[i];

@@ -70,8 +70,7 @@ std::vector<double> find_dividers(const FurnitureVoxels& all, const PieceDraft& 
             continue;
         const auto level = static_cast<std::int32_t>(
             std::floor((from_center.dot(rectangle.axis) + 0.5 * rectangle.length) / step));
-        const auto number =
-            std::min(static_cast<std::size_t>(voxel.height / mark), num_marks - 1);
+        const auto number = std::min(static_cast<std::size_t>(voxel.height / mark), num_marks - 1);
         seen.emplace_back(level, number);
         seen.emplace_back(level + 1, number);
     }
@@ -107,9 +106,10 @@ void drop_shelf_contents(const FurnitureVoxels& all, const PieceForm& form, Piec
     const std::vector<double> dividers = find_dividers(all, draft, rectangle, top);
     // The back stands a skirting board's thickness off the wall, and books before it.
     constexpr double max_back = 0.08;
-    const double front = form.off_wall.dot(form.rectangle.center) +
-                         0.5 * form.rectangle.length * std::abs(form.rectangle.axis.dot(form.off_wall)) +
-                         0.5 * form.rectangle.width * std::abs(form.rectangle.across().dot(form.off_wall));
+    const double front =
+        form.off_wall.dot(form.rectangle.center) +
+        0.5 * form.rectangle.length * std::abs(form.rectangle.axis.dot(form.off_wall)) +
+        0.5 * form.rectangle.width * std::abs(form.rectangle.across().dot(form.off_wall));
     const auto is_back = [&](const FurnitureVoxel& voxel) {
         return form.is_at_wall &&
                form.off_wall.dot(voxel.place.head<2>()) <= front - form.depth + max_back;
@@ -120,9 +120,9 @@ void drop_shelf_contents(const FurnitureVoxels& all, const PieceForm& form, Piec
         const double to_side = 0.5 * rectangle.length - std::abs(from_center.dot(rectangle.axis));
         if (to_side <= thickness || voxel.is_near_wall || is_back(voxel)) return true;
         const double along = from_center.dot(rectangle.axis);
-        const bool is_divider =
-            std::any_of(dividers.begin(), dividers.end(),
-                        [&](double at) { return std::abs(along - at) <= thickness; });
+        const bool is_divider = std::any_of(dividers.begin(), dividers.end(), [&](double at) {
+            return std::abs(along - at) <= thickness;
+        });
         if (is_divider) return true;
         return std::any_of(boards.begin(), boards.end(), [&](double height) {
             return std::abs(voxel.height - height) <= thickness;
