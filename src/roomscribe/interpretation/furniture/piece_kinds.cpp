@@ -147,8 +147,10 @@ PieceVerdict judge_hanging(const PieceForm& form) {
 
 PieceVerdict judge_seat(const PieceForm& form) {
     const double across = form.rectangle.length;
-    constexpr double min_flat = 0.4;  // cushions are less flat than boards, leaves less than either
-    if (across > 1.1 || form.planar < min_flat) return {};
+    // Cushions and legs are less flat than boards, leaves less than either; a seat is 0.14 m2.
+    constexpr double min_flat = 0.4;
+    constexpr double min_seat_area = 0.14;
+    if (across > 1.1 || (form.planar < min_flat && form.face < min_seat_area)) return {};
     if (form.top >= 0.65) {
         if (form.rectangle.width >= 0.7 && form.upright + form.level > 0.6)
             return furniture("armchair", "seat with arms and a back", 0.7);
