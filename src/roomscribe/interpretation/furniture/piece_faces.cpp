@@ -82,6 +82,18 @@ class PanelParter {
     /// a chance of exp(-score) each (Chernoff's bound for a Poisson variable).
     static constexpr double min_score = 9.0;
 
+    /// Whether few points lie deep right beside a line: a gap and the beam are no wider than 15 mm,
+    /// waves and steps of a depth camera's noise are.
+    static bool is_narrow(const std::vector<Bin>& bins, std::size_t at, double share) {
+        constexpr std::size_t away = 2;
+        constexpr double max_share = 0.5;
+        for (const std::size_t i : {at - 1 - away, at + away}) {
+            const Bin& bin = bins[i];
+            if (bin.num_deep > max_share * share * static_cast<double>(bin.num)) return false;
+        }
+        return true;
+    }
+
     /// The clearest line from edge to edge along which more points lie deep than elsewhere.
     std::optional<GapLine> find_gap(const WallRectangle& panel, bool is_upright) const {
         const double extent = is_upright ? panel.width() : panel.height();
@@ -139,6 +151,8 @@ class PanelParter {
             for (std::size_t k = 0; k < num_segments; ++k)
                 segments += a.deep[k] + b.deep[k] > 0 ? 1U : 0U;
             if (score < min_score || segments + 2 < num_segments) continue;
+            if (!is_narrow(bins, i, deep / std::max(1.0, static_cast<double>(a.num + b.num))))
+                continue;
             if (!best || score > best->score) {
                 const double at = bin_width * static_cast<double>(i);
                 best = GapLine{is_upright, at + (is_upright ? panel.start : panel.bottom), score};
