@@ -12,6 +12,7 @@
 #include "roomscribe/interpretation/bent_walls.hpp"
 #include "roomscribe/interpretation/component_support.hpp"
 #include "roomscribe/interpretation/fixtures/find_fixtures.hpp"
+#include "roomscribe/interpretation/fixtures/front_parts.hpp"
 #include "roomscribe/interpretation/fixtures/furniture_fixtures.hpp"
 #include "roomscribe/interpretation/fixtures/mounting_faces.hpp"
 #include "roomscribe/interpretation/furniture/furniture.hpp"
@@ -182,10 +183,11 @@ void interpret_by_default(Reconstruction& reconstruction, const ScanMap& map,
     label_furniture(sample, furniture, reconstruction.labels);
     continue_bent_walls(map.cloud, sample, surfaces, reconstruction.labels, context);
     stages.finish("furniture", 0.97);
-    const std::vector<MountingFace> faces =
+    std::vector<MountingFace> faces =
         faces_for_fixtures(sample, patches, surfaces, openings, furniture, num_before);
-    const std::vector<Fixture> fixtures = find_fixtures_by(
-        map, sample, faces, seed_of(settings), settings.interpretation.fixtures, context);
+    std::vector<Fixture> fixtures = find_fixtures_by(map, sample, faces, seed_of(settings),
+                                                     settings.interpretation.fixtures, context);
+    part_fronts_by_fixtures(furniture, num_before, faces, fixtures);
 
     reconstruction.scene.room_from_map = surfaces.room_from_map;
     reconstruction.scene.rooms = std::move(surfaces.rooms);

@@ -10,6 +10,7 @@
 #include "roomscribe/core/random.hpp"
 #include "roomscribe/geometry/transform.hpp"
 #include "roomscribe/interpretation/fixtures/find_fixtures.hpp"
+#include "roomscribe/interpretation/fixtures/front_parts.hpp"
 #include "roomscribe/interpretation/fixtures/furniture_fixtures.hpp"
 #include "roomscribe/interpretation/fixtures/opening_motion.hpp"
 #include "roomscribe/preprocessing/scan_statistics.hpp"
@@ -135,6 +136,26 @@ TEST(FindFixtures, JoinsTheEndsOfABarWhoseMiddleReturnedNothing) {
     const std::vector<Fixture> fixtures = find(scan);
     ASSERT_EQ(fixtures.size(), 1U);
     EXPECT_NEAR(fixtures[0].component.box->size.x(), 0.16, 0.01);
+}
+
+TEST(FindFixtures, FindsABarThatNoiseHidesByTheMeanOfItsPoints) {
+    // Three deviations are 36 mm, more than the bar projects.
+    const FrontScan scan = front_with_bar(0.012);
+    const std::vector<Fixture> fixtures = find(scan);
+    ASSERT_EQ(fixtures.size(), 1U);
+    const Component& bar = fixtures[0].component;
+    EXPECT_EQ(bar.kind, "bar_handle");
+    EXPECT_LT((bar.box->center - Vector3d(0.015, 0.28, 0.7)).norm(), 0.015);
+    EXPECT_NEAR(bar.box->size.x(), 0.16, 0.03);
+    MountingFace untold = front();
+    untold.component = no_component;
+    EXPECT_TRUE(find(scan, untold).empty());
+}
+
+TEST(FindFixtures, FindsNothingOnABareNoisyFront) {
+    FrontScan scan(0.012);
+    scan.add_front();
+    EXPECT_TRUE(find(scan).empty());
 }
 
 TEST(FindFixtures, KeepsTwoKnobsInARowApart) {
@@ -292,6 +313,49 @@ TEST(OpeningMotions, SaysNothingOfAnUprightHandleAmidSeveralFronts) {
     ASSERT_TRUE(motions[0] && motions[1]);
     EXPECT_LT(motions[0]->point.y(), 0.26);
     EXPECT_GT(motions[1]->point.y(), 0.34);
+}
+
+constexpr double knob = 0.03;
+constexpr double bar = 0.16;
+
+TEST(PartByFixtures, KeepsAFrontOfOneFixtureWhole) {
+    const WallRectangle extent{0.0, 0.6, 0.1, 0.8};
+    const std::vector<FixturePlace> one{{0.3, 0.7, bar, false}};
+    EXPECT_EQ(part_by_fixtures(extent, one).size(), 1U);
+    EXPECT_EQ(part_by_fixtures(extent, {}).size(), 1U);
+}
+
+TEST(PartByFixtures, PartsDrawersAsFarAboveTheirHandlesAsTheUppermost) {
+    const WallRectangle extent{0.0, 0.6, 0.1, 0.8};
+    const std::vector<FixturePlace> handles{
+        {0.3, 0.75, bar, false}, {0.3, 0.55, bar, false}, {0.3, 0.3, bar, false}};
+    const std::vector<WallRectangle> parts = part_by_fixtures(extent, handles);
+    ASSERT_EQ(parts.size(), 3U);
+    EXPECT_DOUBLE_EQ(parts[0].top, 0.8);
+    EXPECT_DOUBLE_EQ(parts[0].bottom, 0.6);
+    EXPECT_DOUBLE_EQ(parts[1].bottom, 0.35);
+    EXPECT_DOUBLE_EQ(parts[2].bottom, 0.1);
+}
+
+TEST(PartByFixtures, PartsAPairOfDoorsBetweenTheirHandles) {
+    const WallRectangle extent{0.0, 1.0, 0.1, 2.0};
+    const std::vector<FixturePlace> handles{{0.46, 1.05, bar, true}, {0.56, 1.05, bar, true}};
+    const std::vector<WallRectangle> parts = part_by_fixtures(extent, handles);
+    ASSERT_EQ(parts.size(), 2U);
+    EXPECT_NEAR(parts[0].end, 0.51, 1e-9);
+    EXPECT_NEAR(parts[1].start, 0.51, 1e-9);
+}
+
+TEST(PartByFixtures, KeepsAWideDrawerWithTwoKnobsWhole) {
+    const WallRectangle extent{0.0, 1.0, 0.1, 0.7};
+    const std::vector<FixturePlace> knobs{{0.25, 0.6, knob, false},
+                                          {0.75, 0.6, knob, false},
+                                          {0.25, 0.3, knob, false},
+                                          {0.75, 0.3, knob, false}};
+    const std::vector<WallRectangle> parts = part_by_fixtures(extent, knobs);
+    ASSERT_EQ(parts.size(), 2U);
+    for (const WallRectangle& part : parts)
+        EXPECT_DOUBLE_EQ(part.width(), 1.0);
 }
 
 TEST(FurnitureFixtures, FindsALineInThePrism) {

@@ -232,6 +232,22 @@ TEST(FindFurniture, TellsAChairFromTheTableThatItIsPushedUnder) {
     }
 }
 
+TEST(FindFurniture, KeepsATableForMeetingsWholeAndPartsDesksThatFaceEachOther) {
+    MadeUpRoom meeting;
+    meeting.table({2.5, 2.0, 0.0}, 0.0, 2.6, 1.3, 0.74, 1);
+    const Found whole = find(meeting.cloud);
+    EXPECT_EQ(pieces_of(whole).size(), 1U);
+    EXPECT_GT(best_iou(meeting, whole, 1), 0.8);
+    MadeUpRoom desks;
+    desks.table({2.5, 1.65, 0.0}, 0.0, 1.6, 0.7, 0.74, 1);
+    desks.table({2.5, 2.35, 0.0}, 0.0, 1.6, 0.7, 0.74, 2);
+    desks.chair({2.3, 1.2, 0.0}, radians(180.0), 3);
+    desks.chair({2.6, 2.8, 0.0}, 0.0, 4);
+    const Found parted = find(desks.cloud);
+    EXPECT_GT(best_iou(desks, parted, 1), 0.7);
+    EXPECT_GT(best_iou(desks, parted, 2), 0.7);
+}
+
 TEST(FindFurniture, LeavesWhatStandsOnATableUnknown) {
     MadeUpRoom made;
     made.table({2.5, 2.0, 0.0}, 0.0, 1.4, 0.8, 0.74, 1);

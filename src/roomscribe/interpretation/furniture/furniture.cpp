@@ -11,6 +11,7 @@
 
 #include "roomscribe/interpretation/furniture/furniture_voxels.hpp"
 #include "roomscribe/interpretation/furniture/level_slabs.hpp"
+#include "roomscribe/interpretation/furniture/piece_backs.hpp"
 #include "roomscribe/interpretation/furniture/piece_drafts.hpp"
 #include "roomscribe/interpretation/furniture/piece_faces.hpp"
 #include "roomscribe/interpretation/furniture/piece_kinds.hpp"
@@ -86,10 +87,12 @@ constexpr double min_confidence = 0.5;
 /// Makes the components of pieces and their faces.
 class FurnitureBuilder {
   public:
-    FurnitureBuilder(const FurnitureVoxels& all, std::span<const LevelSlab> slabs,
-                     const RoomSurfaces& surfaces, std::span<const PlanarPatch> patches,
-                     double voxel_size, std::int32_t first_instance)
-        : all_(all),
+    FurnitureBuilder(const SurfaceSample& sample, const FurnitureVoxels& all,
+                     std::span<const LevelSlab> slabs, const RoomSurfaces& surfaces,
+                     std::span<const PlanarPatch> patches, double voxel_size,
+                     std::int32_t first_instance)
+        : sample_(sample),
+          all_(all),
           slabs_(slabs),
           surfaces_(surfaces),
           patches_(patches),
@@ -98,7 +101,7 @@ class FurnitureBuilder {
           next_instance_(first_instance) {}
 
     void add(PieceDraft& draft, Furniture& result) {
-        const PieceForm form = measure_form(all_, slabs_, draft, surfaces_);
+        PieceForm form = measure_form(all_, slabs_, draft, surfaces_);
         const PieceVerdict verdict = judge_piece(form);
         if (!verdict.is_furniture) {
             if (!verdict.kind.empty()) add_thing(draft, form, verdict, result);
@@ -109,7 +112,16 @@ class FurnitureBuilder {
                 result.component_of_voxel[all_.voxels[i].voxel] = unnamed_furniture;
             return;
         }
-        if (verdict.kind == "shelf") drop_shelf_contents(all_, draft);
+        if (verdict.kind == "shelf" && form.is_at_wall) {
+            const FurnitureVoxel& some = all_.voxels[draft.voxels.front()];
+            for (const std::uint32_t v : find_back_on_wall(sample_, surfaces_, form, some)) {
+                if (result.component_of_voxel[v] >= 0) continue;
+                result.component_of_voxel[v] = static_cast<std::int32_t>(result.components.size());
+                result.backs.push_back(v);
+            }
+        }
+        if (verdict.kind == "shelf") drop_shelf_contents(all_, form, draft);
+        if (is_flat_on_top(verdict.kind)) drop_things_on_top(form, draft);
         const std::size_t number = result.components.size();
         Component piece = make_component(draft, verdict, Label::furniture);
         piece.box = box_of(all_, draft, form, axes_, voxel_size_);
@@ -157,6 +169,24 @@ class FurnitureBuilder {
     }
 
   private:
+    /// Kinds whose top ends them; of seats and beds backs rise above.
+    static bool is_flat_on_top(std::string_view kind) {
+        constexpr std::array<std::string_view, 5> kinds{"tv_unit", "bench", "coffee_table",
+                                                        "nightstand", "cabinet"};
+        return std::find(kinds.begin(), kinds.end(), kind) != kinds.end();
+    }
+
+    /// Screens and lamps on the main slab.
+    void drop_things_on_top(PieceForm& form, PieceDraft& draft) const {
+        constexpr double slack = 0.04;
+        if (draft.slabs.empty()) return;
+        const double top = slabs_[draft.slabs.front()].height + slack;
+        std::erase_if(draft.voxels, [&](std::uint32_t i) {
+            return all_.voxels[i].height > top + all_.voxels[i].noise;
+        });
+        form.top = std::min(form.top, top);
+    }
+
     Component make_component(const PieceDraft& draft, const PieceVerdict& verdict, Label label) {
         const FurnitureVoxel& some = all_.voxels[draft.voxels.front()];
         Component component;
@@ -227,6 +257,7 @@ class FurnitureBuilder {
         result.components.push_back(std::move(face));
     }
 
+    const SurfaceSample& sample_;
     const FurnitureVoxels& all_;
     std::span<const LevelSlab> slabs_;
     const RoomSurfaces& surfaces_;
@@ -330,20 +361,28 @@ Furniture find_furniture(const ScanMap& map, const SurfaceSample& sample,
     for (PieceDraft& draft : draft_pieces(all, slabs))
         drafts.push_back(std::move(draft));
     context.throw_if_cancelled();
-    join_worktop_rows(all, slabs, drafts);
+    join_worktop_rows(all, slabs, surfaces, drafts);
     add_backs(all, surfaces, drafts);
-    FurnitureBuilder builder(all, slabs, surfaces, patches, sample.voxel_size, first_instance);
+    FurnitureBuilder builder(sample, all, slabs, surfaces, patches, sample.voxel_size,
+                             first_instance);
     for (PieceDraft& draft : drafts) {
         if (!draft.voxels.empty()) builder.add(draft, result);
     }
+    std::sort(result.backs.begin(), result.backs.end());
     builder.add_fronts(map.cloud, sample, result);
     return result;
 }
 
 void label_furniture(const SurfaceSample& sample, const Furniture& furniture, PointLabels& labels) {
+    std::vector<bool> is_back(sample.cloud.size(), false);
+    for (const std::uint32_t voxel : furniture.backs)
+        is_back[voxel] = true;
     for (std::size_t i = 0; i < labels.labels.size(); ++i) {
         const std::uint32_t voxel = sample.voxel_of_point[i];
-        if (voxel == no_voxel || labels.labels[i] != Label::unknown) continue;
+        if (voxel == no_voxel) continue;
+        const bool is_free = labels.labels[i] == Label::unknown ||
+                             (labels.labels[i] == Label::wall && is_back[voxel]);
+        if (!is_free) continue;
         const std::int32_t number = furniture.component_of_voxel[voxel];
         if (number == unnamed_furniture) {
             labels.labels[i] = Label::furniture;

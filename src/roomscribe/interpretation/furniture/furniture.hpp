@@ -28,6 +28,9 @@ struct Furniture {
     /// Number in `components` per voxel of the sample, of the piece or thing that its points
     /// belong to; -1 for none, or unnamed_furniture.
     std::vector<std::int32_t> component_of_voxel;
+    /// Voxels whose points are a piece's back though they were taken for the wall behind it.
+    /// Ascending.
+    std::vector<std::uint32_t> backs;
     /// The upright faces; `component` numbers `components`.
     std::vector<MountingFace> fronts;
 };
@@ -46,7 +49,8 @@ Furniture find_furniture(const ScanMap& map, const SurfaceSample& sample,
                          std::uint64_t seed, const FurnitureSettings& settings = {},
                          const Context& context = {});
 
-/// Gives the points that are unknown so far and lie in a piece's or thing's voxels to it.
+/// Gives the points that are unknown so far and lie in a piece's or thing's voxels to it, and a
+/// wall's points in voxels of a piece's back.
 void label_furniture(const SurfaceSample& sample, const Furniture& furniture, PointLabels& labels);
 
 }  // namespace roomscribe

@@ -82,14 +82,49 @@ class CellTable {
     std::vector<Entry> entries_;
 };
 
+/// Whether a wall of the room stands between a place in it and one beside it.
+bool is_behind_wall(const StoreyLayout& storey, std::int32_t room, const Eigen::Matrix3d& axes,
+                    const Eigen::Vector2d& inside, const Eigen::Vector2d& outside) {
+    constexpr double tolerance = 0.05;
+    for (const WallFace& face : storey.faces) {
+        if (face.room != room) continue;
+        const Eigen::Vector2d normal = (axes * face.plane.normal).head<2>();
+        if (normal.dot(outside) - face.plane.offset > -tolerance) continue;
+        if (normal.dot(inside) - face.plane.offset < -tolerance) continue;
+        const double along = (axes * face.along).head<2>().dot(outside);
+        if (along >= face.start && along <= face.end) return true;
+    }
+    return false;
+}
+
+/// The room at a place; where none is, the one that is open to it within a wardrobe's depth: what
+/// stands along a wall hides the floor below it and the wall behind.
+std::int32_t room_of(const StoreyLayout& storey, const Eigen::Matrix3d& axes,
+                     const Eigen::Vector2d& place) {
+    const std::int32_t room = storey.plan.room_at(place);
+    if (room != no_room) return room;
+    constexpr double max_depth = 0.7;
+    constexpr double step = 0.1;
+    constexpr std::array<std::array<double, 2>, 4> directions{
+        {{1.0, 0.0}, {-1.0, 0.0}, {0.0, 1.0}, {0.0, -1.0}}};
+    for (double reach = step; reach <= max_depth; reach += step) {
+        for (const auto& [x, y] : directions) {
+            const Eigen::Vector2d inside = place + reach * Eigen::Vector2d(x, y);
+            const std::int32_t near = storey.plan.room_at(inside);
+            if (near != no_room && !is_behind_wall(storey, near, axes, inside, place)) return near;
+        }
+    }
+    return no_room;
+}
+
 /// Finds storey and room of a place.
 bool find_room(const RoomSurfaces& surfaces, FurnitureVoxel& voxel) {
+    const Eigen::Matrix3d axes = surfaces.room_from_map.linear();
     double lowest = std::numeric_limits<double>::infinity();
     for (std::uint32_t s = 0; s < surfaces.storeys.size(); ++s) {
-        const FloorPlan& plan = surfaces.storeys[s].plan;
-        const std::int32_t room = plan.room_at(voxel.place.head<2>());
+        const std::int32_t room = room_of(surfaces.storeys[s], axes, voxel.place.head<2>());
         if (room == no_room) continue;
-        const PlanRoom& seen = plan.rooms[static_cast<std::size_t>(room)];
+        const PlanRoom& seen = surfaces.storeys[s].plan.rooms[static_cast<std::size_t>(room)];
         const double height = voxel.place.z() - seen.floor_height;
         if (height < min_height || height >= lowest) continue;
         if (seen.ceiling_height && voxel.place.z() > *seen.ceiling_height - ceiling_margin)

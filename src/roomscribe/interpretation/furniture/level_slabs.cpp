@@ -2,6 +2,7 @@
 #include "roomscribe/interpretation/furniture/level_slabs.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 #include <optional>
@@ -223,8 +224,48 @@ Cut find_cut(std::span<const Eigen::Vector2d> places, const PlanRectangle& recta
     return best;
 }
 
-/// Several desks side by side, whose tops are lower than a kitchen's worktop.
-std::optional<Cut> cut_desks(const LevelSlab& slab) {
+/// Voxels below a top, at a line across it, of what stands there from the floor to the top: legs
+/// and side panels, of which each of two tables that meet there has its own.
+std::size_t count_supports(const FurnitureVoxels& all, const LevelSlab& slab, const Cut& cut) {
+    constexpr double reach = 0.15;  // m: legs stand so near to a table's end
+    constexpr double lowest = 0.1;
+    constexpr double below_top = 0.12;
+    constexpr double level_height = 0.1;
+    constexpr double min_filled = 0.6;
+    const double highest = slab.height - below_top;
+    const FurnitureVoxel& some = all.voxels[slab.voxels.front()];
+    std::vector<std::array<std::int32_t, 3>> marks;  // x, y, level
+    for (const FurnitureVoxel& voxel : all.voxels) {
+        if (voxel.room != some.room || voxel.storey != some.storey || !voxel.is_core) continue;
+        if (voxel.height < lowest || voxel.height > highest) continue;
+        const Eigen::Vector2d place = voxel.place.head<2>();
+        if (std::abs(place.dot(cut.direction) - cut.at) > reach) continue;
+        if (slab.rectangle.distance(place) > 0.0) continue;
+        marks.push_back({static_cast<std::int32_t>(std::floor(place.x() / all.reach)),
+                         static_cast<std::int32_t>(std::floor(place.y() / all.reach)),
+                         static_cast<std::int32_t>((voxel.height - lowest) / level_height)});
+    }
+    std::sort(marks.begin(), marks.end());
+    marks.erase(std::unique(marks.begin(), marks.end()), marks.end());
+    const double levels = std::max(1.0, (highest - lowest) / level_height);
+    std::size_t supports = 0;
+    for (std::size_t begin = 0, end = 0; begin < marks.size(); begin = end) {
+        while (end < marks.size() && marks[end][0] == marks[begin][0] &&
+               marks[end][1] == marks[begin][1])
+            ++end;
+        const auto filled = static_cast<double>(end - begin);
+        supports += filled >= min_filled * levels ? end - begin : 0U;
+    }
+    return supports;
+}
+
+/// m: tables for meetings are up to 1.5 wide and 3.6 long.
+constexpr double max_meeting_width = 1.5;
+constexpr double max_meeting_length = 3.7;
+
+/// Several desks side by side, whose tops are lower than a kitchen's worktop. Nothing if no leg
+/// stands where they would meet and all could be one table.
+std::optional<Cut> cut_desks(const FurnitureVoxels& all, const LevelSlab& slab) {
     constexpr double max_desk_height = 0.8;
     const PlanRectangle& rectangle = slab.rectangle;
     if (slab.height > max_desk_height || slab.height < min_table_height) return std::nullopt;
@@ -233,45 +274,61 @@ std::optional<Cut> cut_desks(const LevelSlab& slab) {
     }
     const double count = std::ceil(rectangle.length / max_table_length);
     const double start = rectangle.center.dot(rectangle.axis) - rectangle.length / 2.0;
-    return Cut{rectangle.axis, start + rectangle.length / count, 0.0};
+    const Cut cut{rectangle.axis, start + rectangle.length / count, 0.0};
+    constexpr double min_meeting_width = 0.9;
+    const bool may_be_one =
+        rectangle.width >= min_meeting_width && rectangle.length <= max_meeting_length;
+    if (may_be_one && count_supports(all, slab, cut) == 0) return std::nullopt;
+    return cut;
+}
+
+/// Voxels of chairs' size beside the ends of a cut: people sit along it.
+std::size_t count_beside(const FurnitureVoxels& all, const PlanRectangle& rectangle,
+                         const Eigen::Vector2d& across_cut, double half, double kept) {
+    constexpr double chair_reach = 0.45;
+    const Eigen::Vector2d along_cut(-across_cut.y(), across_cut.x());
+    return static_cast<std::size_t>(
+        std::count_if(all.voxels.begin(), all.voxels.end(), [&](const FurnitureVoxel& voxel) {
+            if (!voxel.is_core || voxel.height < 0.35 || voxel.height > 1.15) return false;
+            const Eigen::Vector2d from = voxel.place.head<2>() - rectangle.center;
+            const double out = std::abs(from.dot(across_cut)) - half;
+            return out >= 0.05 && out <= chair_reach && std::abs(from.dot(along_cut)) <= kept / 2.0;
+        }));
 }
 
 /// Two tables, or rows of them, that face each other: halves of a table's depth. Where both ways to
-/// halve it would do, people sit along the cut, so that chairs stand beside it.
+/// halve it would do, people sit along the cut, so that chairs stand beside it. Nothing if no leg
+/// stands along either and it could be one table for meetings.
 std::optional<Cut> halve(const FurnitureVoxels& all, const LevelSlab& slab) {
     const PlanRectangle& rectangle = slab.rectangle;
     if (slab.height < min_table_height || rectangle.width <= max_table_width + 0.1)
         return std::nullopt;
     constexpr double min_half = 0.5;  // m: desks are 0.6 deep at least
-    constexpr double chair_reach = 0.45;
     std::optional<Cut> best;
     std::size_t most = 0;
+    std::size_t supports = 0;
     for (const bool is_long : {false, true}) {
         const Eigen::Vector2d direction = is_long ? rectangle.axis : rectangle.across();
         const double halved = is_long ? rectangle.length : rectangle.width;
         const double kept = is_long ? rectangle.width : rectangle.length;
         if (halved / 2.0 < min_half || halved / 2.0 > max_table_width) continue;
         if (is_long && kept > max_table_length) continue;
-        std::size_t beside = 0;
-        for (const FurnitureVoxel& voxel : all.voxels) {
-            if (!voxel.is_core || voxel.height < 0.35 || voxel.height > 1.15) continue;
-            const Eigen::Vector2d from = voxel.place.head<2>() - rectangle.center;
-            const double out = std::abs(from.dot(direction)) - halved / 2.0;
-            const Eigen::Vector2d other = is_long ? rectangle.across() : rectangle.axis;
-            if (out < 0.05 || out > chair_reach || std::abs(from.dot(other)) > kept / 2.0) continue;
-            ++beside;
-        }
+        const Cut cut{direction, rectangle.center.dot(direction), 0.0};
+        supports += count_supports(all, slab, cut);
+        const std::size_t beside = count_beside(all, rectangle, direction, halved / 2.0, kept);
         if (best && beside <= most) continue;
         most = beside;
-        best = Cut{direction, rectangle.center.dot(direction), 0.0};
+        best = cut;
     }
-    return best;
+    const bool may_be_one =
+        rectangle.width <= max_meeting_width && rectangle.length <= max_meeting_length;
+    return supports == 0 && may_be_one ? std::nullopt : best;
 }
 
 std::optional<Cut> choose_cut(const FurnitureVoxels& all, std::span<const Eigen::Vector2d> places,
                               const LevelSlab& slab, double voxel_size) {
     const PlanRectangle& rectangle = slab.rectangle;
-    if (rectangle.width <= max_table_width + 0.1) return cut_desks(slab);
+    if (rectangle.width <= max_table_width + 0.1) return cut_desks(all, slab);
     // What fills less than this of its rectangle is an L or several at angles.
     constexpr double min_fill = 0.8;
     if (slab.area < min_fill * rectangle.area()) {

@@ -82,6 +82,18 @@ class PanelParter {
     /// a chance of exp(-score) each (Chernoff's bound for a Poisson variable).
     static constexpr double min_score = 9.0;
 
+    /// Whether few points lie deep right beside a line: a gap and the beam are no wider than 15 mm,
+    /// waves and steps of a depth camera's noise are.
+    static bool is_narrow(const std::vector<Bin>& bins, std::size_t at, double share) {
+        constexpr std::size_t away = 2;
+        constexpr double max_share = 0.5;
+        for (const std::size_t i : {at - 1 - away, at + away}) {
+            const Bin& bin = bins[i];
+            if (bin.num_deep > max_share * share * static_cast<double>(bin.num)) return false;
+        }
+        return true;
+    }
+
     /// The clearest line from edge to edge along which more points lie deep than elsewhere.
     std::optional<GapLine> find_gap(const WallRectangle& panel, bool is_upright) const {
         const double extent = is_upright ? panel.width() : panel.height();
@@ -139,6 +151,8 @@ class PanelParter {
             for (std::size_t k = 0; k < num_segments; ++k)
                 segments += a.deep[k] + b.deep[k] > 0 ? 1U : 0U;
             if (score < min_score || segments + 2 < num_segments) continue;
+            if (!is_narrow(bins, i, deep / std::max(1.0, static_cast<double>(a.num + b.num))))
+                continue;
             if (!best || score > best->score) {
                 const double at = bin_width * static_cast<double>(i);
                 best = GapLine{is_upright, at + (is_upright ? panel.start : panel.bottom), score};
@@ -170,6 +184,18 @@ WallRectangle extent_of(std::span<const SidePoint> points, double tolerance) {
 }
 
 }  // namespace
+
+PanelKind kind_of_panel(const WallRectangle& extent, bool is_whole) {
+    const bool is_drawer =
+        extent.height() <= max_drawer_height && extent.width() >= 0.8 * extent.height();
+    PanelKind kind;
+    kind.may_be_several =
+        is_drawer ? extent.width() > 2.0 * max_door_width : extent.width() > max_door_width;
+    // A chest of drawers is as wide as high; so is a pair of low doors.
+    kind.may_be_several = kind.may_be_several || (!is_drawer && extent.height() > 0.5 && is_whole);
+    kind.name = kind.may_be_several ? "front" : is_drawer ? "drawer" : "door";
+    return kind;
+}
 
 std::optional<FrontSide> find_front_side(const FurnitureVoxels& all, const PieceDraft& draft,
                                          const PieceForm& form,
@@ -248,14 +274,9 @@ std::vector<FrontPanel> find_front_panels(const PointCloud& map, const SurfaceSa
             panel.side = s;
             panel.extent = part;
             panel.rms = noise;
-            const bool is_drawer =
-                part.height() <= max_drawer_height && part.width() >= 0.8 * part.height();
-            panel.may_be_several =
-                is_drawer ? part.width() > 2.0 * max_door_width : part.width() > max_door_width;
-            // A chest of drawers is as wide as high; so is a pair of low doors.
-            panel.may_be_several =
-                panel.may_be_several || (!is_drawer && part.height() > 0.5 && parts.size() == 1);
-            panel.kind = panel.may_be_several ? "front" : is_drawer ? "drawer" : "door";
+            const PanelKind kind = kind_of_panel(part, parts.size() == 1);
+            panel.may_be_several = kind.may_be_several;
+            panel.kind = kind.name;
             panels.push_back(panel);
         }
     }

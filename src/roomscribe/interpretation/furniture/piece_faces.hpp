@@ -39,6 +39,14 @@ struct FrontPanel {
     bool may_be_several = false;
 };
 
+/// What a panel of this size is.
+struct PanelKind {
+    std::string_view name;  ///< "door", "drawer", or "front" for what may be several
+    bool may_be_several = false;
+};
+/// `is_whole`: the front of a piece that nothing parted.
+PanelKind kind_of_panel(const WallRectangle& extent, bool is_whole);
+
 /// The front of a piece that has_fronts: the largest upright patch among those that look away from
 /// the wall that it stands at (of a free-standing one, any). Nothing if there is none.
 std::optional<FrontSide> find_front_side(const FurnitureVoxels& all, const PieceDraft& draft,

@@ -24,40 +24,52 @@ constexpr double max_standing_bottom = 0.5;
 /// m above the floor: wall units begin at 1.35, shelves over a sofa or desk lower.
 constexpr double min_hanging_bottom = 0.9;
 
+/// Share of a side that upright surface closes, of the one that is closed most: the others may not
+/// have been seen. Legs stand at corners and rungs run low, so a side counts in columns, which are
+/// closed if most of their height is.
 double closed_share(const FurnitureVoxels& all, const PieceDraft& draft,
                     const PlanRectangle& rectangle, double below) {
-    // Marks of 10 cm along the rim that some upright surface stands under.
-    constexpr double mark = 0.1;
-    constexpr double rim = 0.12;
-    const auto count = [](double side) {
-        return static_cast<std::size_t>(std::max(1.0, std::floor(side / mark)));
+    // m: worktops overhang by 20 to 40 mm, plinths are set back 50; of a stool it is no leg's
+    // place.
+    const double rim = std::min(0.12, 0.15 * rectangle.width);
+    constexpr double lowest = 0.1;  // m: plinths and castors
+    constexpr double column_width = 0.1;
+    constexpr double min_fill = 0.6;
+    const std::size_t columns =
+        std::max<std::size_t>(3, static_cast<std::size_t>(rectangle.length / column_width));
+    const auto rows = static_cast<std::size_t>(std::max(1.0, (below - lowest) / all.reach));
+    // The short sides only of what is nearly square.
+    const bool has_short = rectangle.width >= 0.7 * rectangle.length;
+    std::array<std::vector<bool>, 4> is_filled;
+    is_filled.fill(std::vector<bool>(columns * rows, false));
+    const auto bin = [](double share, std::size_t bins) {
+        return static_cast<std::size_t>(
+            std::clamp(share * static_cast<double>(bins), 0.0, static_cast<double>(bins) - 1.0));
     };
-    const std::size_t along = count(rectangle.length);
-    const std::size_t across = count(rectangle.width);
-    std::vector<bool> is_closed(2 * (along + across), false);
     for (const std::uint32_t i : draft.voxels) {
         const FurnitureVoxel& voxel = all.voxels[i];
-        if (!voxel.is_upright || voxel.height > below) continue;
+        if (!voxel.is_upright || voxel.height < lowest || voxel.height >= below) continue;
         const Eigen::Vector2d from_center = voxel.place.head<2>() - rectangle.center;
-        const double u = from_center.dot(rectangle.axis) / rectangle.length + 0.5;
-        const double v = from_center.dot(rectangle.across()) / rectangle.width + 0.5;
-        const auto bin = [](double share, std::size_t bins) {
-            return static_cast<std::size_t>(std::clamp(share * static_cast<double>(bins), 0.0,
-                                                       static_cast<double>(bins) - 1.0));
-        };
-        if (v * rectangle.width < rim) is_closed[bin(u, along)] = true;
-        if ((1.0 - v) * rectangle.width < rim) is_closed[along + bin(u, along)] = true;
-        if (u * rectangle.length < rim) is_closed[2 * along + bin(v, across)] = true;
-        if ((1.0 - u) * rectangle.length < rim)
-            is_closed[2 * along + across + bin(v, across)] = true;
+        const double u = from_center.dot(rectangle.axis);
+        const double v = from_center.dot(rectangle.across());
+        const std::size_t row = columns * bin((voxel.height - lowest) / (below - lowest), rows);
+        if (0.5 * rectangle.width - std::abs(v) < rim)
+            is_filled[v < 0.0 ? 0 : 1][row + bin(u / rectangle.length + 0.5, columns)] = true;
+        if (has_short && 0.5 * rectangle.length - std::abs(u) < rim)
+            is_filled[u < 0.0 ? 2 : 3][row + bin(v / rectangle.width + 0.5, columns)] = true;
     }
-    // The best long side and the best short one: the others may not have been seen.
-    const auto share = [&](std::size_t first, std::size_t bins) {
-        const auto begin = is_closed.begin() + static_cast<std::ptrdiff_t>(first);
-        const auto closed = std::count(begin, begin + static_cast<std::ptrdiff_t>(bins), true);
-        return static_cast<double>(closed) / static_cast<double>(bins);
-    };
-    return std::max({share(0, along), share(along, along)});
+    std::size_t most = 0;
+    for (const std::vector<bool>& side : is_filled) {
+        std::size_t closed = 0;
+        for (std::size_t column = 0; column < columns; ++column) {
+            std::size_t filled = 0;
+            for (std::size_t row = 0; row < rows; ++row)
+                filled += side[row * columns + column] ? 1U : 0U;
+            closed += static_cast<double>(filled) >= min_fill * static_cast<double>(rows) ? 1U : 0U;
+        }
+        most = std::max(most, closed);
+    }
+    return static_cast<double>(most) / static_cast<double>(columns);
 }
 
 /// Share of the voxels of a box that lie on flat surface: of plants and people few do.
@@ -123,10 +135,10 @@ PieceVerdict judge_hanging(const PieceForm& form) {
     if (form.rectangle.length < 0.3) return {};
     // Kitchens' wall units are 0.30 to 0.37 deep, more with a door open; a board for books 0.15 to
     // 0.3.
-    if (height >= 0.3 && form.rectangle.length >= 0.38 && form.planar > min_planar &&
-        form.face >= 0.12 && Range{0.2, 0.75}.holds(form.depth))
+    if (height >= 0.4 && form.rectangle.length >= 0.38 && form.planar > 0.75 &&
+        form.upright >= 0.3 && form.face >= 0.12 && Range{0.2, 0.75}.holds(form.depth))
         return furniture("wall_unit", "box that hangs on a wall", 0.8);
-    if (form.is_at_wall && height < 0.5 && form.level >= 0.3 &&
+    if (form.is_at_wall && form.depth >= 0.12 && height < 0.5 && form.level >= 0.3 &&
         Range{0.12, 0.4}.holds(form.rectangle.width) && form.rectangle.length >= 0.5) {
         return furniture("wall_shelf", "board that hangs on a wall", 0.7);
     }
@@ -135,7 +147,10 @@ PieceVerdict judge_hanging(const PieceForm& form) {
 
 PieceVerdict judge_seat(const PieceForm& form) {
     const double across = form.rectangle.length;
-    if (across > 1.1) return {};
+    // Cushions and legs are less flat than boards, leaves less than either; a seat is 0.14 m2.
+    constexpr double min_flat = 0.4;
+    constexpr double min_seat_area = 0.14;
+    if (across > 1.1 || (form.planar < min_flat && form.face < min_seat_area)) return {};
     if (form.top >= 0.65) {
         if (form.rectangle.width >= 0.7 && form.upright + form.level > 0.6)
             return furniture("armchair", "seat with arms and a back", 0.7);
@@ -182,7 +197,20 @@ PieceVerdict judge_table(const PieceForm& form) {
             return furniture("drawer_unit", "box of a drawer unit's size", 0.8);
         return furniture("cabinet", "closed box with a top", 0.85);
     }
-    if (form.seat > 0.85) return furniture("counter", "top at a counter's height", 0.7);
+    // Parts of tops, and what stands on some: no table is so small.
+    constexpr double min_table_area = 0.35;
+    if (size.area() < min_table_area)
+        return furniture("table", "part of a top at a table's height", 0.3, "thing");
+    if (form.seat > 0.85) {
+        constexpr double min_counter_length = 1.0;
+        const bool is_long = size.length >= min_counter_length;
+        if (!is_long && form.upright >= 0.78 && form.planar >= 0.9) {
+            return furniture(size.length <= 0.65 ? "drawer_unit" : "cabinet",
+                             "box at a counter's height", 0.65);
+        }
+        return furniture("counter", "top at a counter's height", is_long ? 0.7 : 0.3,
+                         is_long ? "" : "thing");
+    }
     if (size.width <= 0.85 && size.length >= 1.0)
         return furniture("desk", "top at a desk's height, open below", 0.85);
     return furniture("table", "top at a table's height, open below", 0.8);
@@ -191,9 +219,14 @@ PieceVerdict judge_table(const PieceForm& form) {
 PieceVerdict judge_tall(const PieceForm& form) {
     const PlanRectangle& size = form.rectangle;
     if (form.planar < min_planar || form.face < 0.2) return {};
-    // A leaf that stands open is thin; of a wardrobe's front the wall is as far behind as it is
-    // deep.
-    if (size.width < 0.24 && !Range{0.25, 0.75}.holds(form.depth)) return {};
+    // Of a box a front, a side and a top are seen; between boards there are many faces.
+    const bool may_be_open = form.level >= 0.08 && size.length >= 0.6 && form.depth <= 0.5;
+    if (form.face < 0.25 * form.surface && !may_be_open) return {};
+    // A leaf that stands open is thin, and 1.95 to 2.1 m high and to 1.0 m wide; of a wardrobe's
+    // front the wall is as far behind as it is deep, if it was seen.
+    const bool is_front_only = !form.reaches_ceiling && form.face >= 0.6 * form.surface &&
+                               (size.length >= 1.15 || form.top < 1.92);
+    if (size.width < 0.24 && !Range{0.25, 0.75}.holds(form.depth) && !is_front_only) return {};
     // Columns and pipes.
     if (form.reaches_ceiling && size.length < 0.6) return {};
     if (size.length < 0.38) return {};
@@ -207,15 +240,50 @@ PieceVerdict judge_tall(const PieceForm& form) {
 
 /// m above the floor: cartons and bins are lower; a scanner sees the top of a lower cabinet.
 constexpr double min_plain_top = 0.55;
+/// Of what is nothing but boards and fronts; limbs and leaves make patches too where noise is high.
+constexpr double mostly_planar = 0.8;
 
-/// A third of these are right over simulated scenes: they are part of the furniture, but not
-/// listed.
-///
+/// The back of a chair that is pushed under a table, which hides its seat.
+bool is_chair_back(const PieceForm& form) {
+    // m: seats lie at 0.40 to 0.52, backs end at 0.8 to 1.2 and are 0.4 to 0.6 wide.
+    constexpr double min_bottom = 0.35;
+    constexpr double max_bottom = 0.75;
+    constexpr double wall_distance = 0.5;  // screens hang or stand nearer
+    return Range{min_bottom, max_bottom}.holds(form.bottom) && Range{0.75, 1.2}.holds(form.top) &&
+           Range{0.38, 0.75}.holds(form.rectangle.length) && form.upright >= 0.7 &&
+           form.planar >= mostly_planar && (form.depth == 0.0 || form.depth > wall_distance);
+}
+
+/// A box of which two sides are seen, before a wall, and higher than radiators are (0.7).
+bool is_box_at_wall(const PieceForm& form) {
+    return form.is_at_wall && form.bottom <= 0.2 && form.top >= 0.7 &&
+           Range{0.35, 0.75}.holds(form.depth) && form.rectangle.width >= 0.35 &&
+           form.upright >= 0.75 && form.planar >= 0.9;
+}
+
+/// The fronts of a kitchen's row whose worktop was not seen.
+bool is_row_front(const PieceForm& form) {
+    return form.bottom <= 0.25 && Range{0.75, 1.0}.holds(form.top) &&
+           Range{1.2, 5.0}.holds(form.rectangle.length) && Range{0.5, 0.75}.holds(form.depth) &&
+           form.upright >= 0.75 && form.planar >= 0.9;
+}
+
 /// Things without a slab whose top is that of a chair or low cabinet. A cabinet of which only
 /// sides are seen stands before a wall.
+///
+/// A third of those with a confidence under a half are right over simulated scenes: they are part
+/// of the furniture, but not listed.
 PieceVerdict judge_plain(const PieceForm& form) {
     const PlanRectangle& size = form.rectangle;
     if (form.top < 0.4 || size.length < 0.25) return {};
+    if (is_chair_back(form)) return furniture("chair", "back of a chair, its seat hidden", 0.65);
+    if (form.bottom > max_standing_bottom) return {};
+    if (is_box_at_wall(form)) {
+        return size.length <= 0.65
+                   ? furniture("drawer_unit", "sides of a box of a drawer unit's size", 0.65)
+                   : furniture("cabinet", "sides of a box before a wall", 0.65);
+    }
+    if (is_row_front(form)) return furniture("base_unit", "fronts of a row before a wall", 0.65);
     const double surface = form.surface;
     if (size.length > 2.5 && size.width > 1.2) return {};
     if (form.planar >= min_planar && form.upright >= 0.5 && size.length >= 0.35 &&
@@ -294,8 +362,9 @@ PieceVerdict judge_piece(const PieceForm& form) {
     if (form.num_voxels < min_voxels) return {};
     if (form.depth > 0.0 && form.depth <= max_thin_depth) return judge_thin(form);
     if (form.bottom >= min_hanging_bottom) return judge_hanging(form);
-    if (form.bottom > max_standing_bottom && form.num_slabs == 0) return {};
-    if (form.num_slabs == 0) return form.top >= 1.25 ? judge_tall(form) : judge_plain(form);
+    if (form.num_slabs == 0 && form.top < 1.25) return judge_plain(form);
+    if (form.num_slabs == 0)
+        return form.bottom > max_standing_bottom ? PieceVerdict{} : judge_tall(form);
     if (form.top >= 1.3) return judge_tall(form);
     if (form.seat <= 0.66) {
         const bool is_seat = form.seat >= 0.36 && form.rectangle.length <= 1.1;

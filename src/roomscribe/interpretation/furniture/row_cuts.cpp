@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <utility>
 
 #include "roomscribe/core/quantile.hpp"
@@ -65,6 +66,32 @@ double step_at(const std::vector<double>& line, std::size_t bin, std::size_t win
     return std::abs(median(sides[0]) - median(sides[1]));
 }
 
+/// Whether boards run through a cut: level surface at two heights and more on both of its sides.
+/// Pieces that stand side by side have their boards at heights of their own.
+bool is_bridged_by_boards(const FurnitureVoxels& all, std::span<const std::uint32_t> members,
+                          const Eigen::Vector2d& axis, double at) {
+    constexpr double reach = 0.25;
+    constexpr double slice = 0.03;    // m: a board's thickness
+    constexpr double min_gap = 0.15;  // m: books are higher
+    constexpr std::size_t few = 4;    // voxels of one board on one side
+    std::map<std::int32_t, std::array<std::size_t, 2>> counts;
+    for (const std::uint32_t i : members) {
+        const FurnitureVoxel& voxel = all.voxels[i];
+        const double along = voxel.place.head<2>().dot(axis) - at;
+        if (!voxel.is_level || std::abs(along) > reach) continue;
+        ++counts[static_cast<std::int32_t>(std::floor(voxel.height / slice))][along < 0.0 ? 0 : 1];
+    }
+    std::size_t boards = 0;
+    double last = -1.0;
+    for (const auto& [level, sides] : counts) {
+        const double height = slice * level;
+        if (std::min(sides[0], sides[1]) < few || height - last < min_gap) continue;
+        last = height;
+        ++boards;
+    }
+    return boards >= 2;
+}
+
 }  // namespace
 
 std::vector<std::vector<std::uint32_t>> cut_row(const FurnitureVoxels& all,
@@ -89,7 +116,9 @@ std::vector<std::vector<std::uint32_t>> cut_row(const FurnitureVoxels& all,
     for (std::size_t bin = window; bin + window <= num_bins; ++bin) {
         const double step = std::max({step_at(profile.lines[0], bin, window) / min_top_step,
                                       step_at(profile.lines[1], bin, window) / min_front_step});
-        if (step > greatest) {
+        if (step > greatest &&
+            !is_bridged_by_boards(all, members, rectangle.axis,
+                                  profile.start + bin_width * static_cast<double>(bin))) {
             greatest = step;
             cut = bin;
         }

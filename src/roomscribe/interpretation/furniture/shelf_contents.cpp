@@ -54,9 +54,42 @@ std::vector<double> find_boards(const FurnitureVoxels& all, const PieceDraft& dr
     return boards;
 }
 
+/// Places along the shelf of the uprights between its bays: what fills most of the height within
+/// its depth, as books do not, which show their backs in front and their sides at the ends of rows.
+std::vector<double> find_dividers(const FurnitureVoxels& all, const PieceDraft& draft,
+                                  const PlanRectangle& rectangle, double top) {
+    constexpr double step = 0.03;
+    constexpr double rim = 0.05;  // m, in front and behind
+    const auto num_marks = static_cast<std::size_t>(top / mark) + 1;
+    std::vector<std::pair<std::int32_t, std::size_t>> seen;  // place, mark
+    for (const std::uint32_t i : draft.voxels) {
+        const FurnitureVoxel& voxel = all.voxels[i];
+        const Eigen::Vector2d from_center = voxel.place.head<2>() - rectangle.center;
+        if (!voxel.is_upright ||
+            std::abs(from_center.dot(rectangle.across())) > 0.5 * rectangle.width - rim)
+            continue;
+        const auto level = static_cast<std::int32_t>(
+            std::floor((from_center.dot(rectangle.axis) + 0.5 * rectangle.length) / step));
+        const auto number = std::min(static_cast<std::size_t>(voxel.height / mark), num_marks - 1);
+        seen.emplace_back(level, number);
+        seen.emplace_back(level + 1, number);
+    }
+    std::sort(seen.begin(), seen.end());
+    seen.erase(std::unique(seen.begin(), seen.end()), seen.end());
+    std::vector<double> dividers;
+    for (std::size_t begin = 0, end = 0; begin < seen.size(); begin = end) {
+        while (end < seen.size() && seen[end].first == seen[begin].first)
+            ++end;
+        const double share = static_cast<double>(end - begin) / static_cast<double>(num_marks);
+        if (share < min_board_share) continue;
+        dividers.push_back(step * seen[begin].first - 0.5 * rectangle.length);
+    }
+    return dividers;
+}
+
 }  // namespace
 
-void drop_shelf_contents(const FurnitureVoxels& all, PieceDraft& draft) {
+void drop_shelf_contents(const FurnitureVoxels& all, const PieceForm& form, PieceDraft& draft) {
     std::vector<Eigen::Vector2d> places;
     double top = 0.0;
     for (const std::uint32_t i : draft.voxels) {
@@ -70,11 +103,27 @@ void drop_shelf_contents(const FurnitureVoxels& all, PieceDraft& draft) {
         return height > lowest && height < top - 0.15;
     });
     if (inner < 2) return;
+    const std::vector<double> dividers = find_dividers(all, draft, rectangle, top);
+    // The back stands a skirting board's thickness off the wall, and books before it.
+    constexpr double max_back = 0.08;
+    const double front =
+        form.off_wall.dot(form.rectangle.center) +
+        0.5 * form.rectangle.length * std::abs(form.rectangle.axis.dot(form.off_wall)) +
+        0.5 * form.rectangle.width * std::abs(form.rectangle.across().dot(form.off_wall));
+    const auto is_back = [&](const FurnitureVoxel& voxel) {
+        return form.is_at_wall &&
+               form.off_wall.dot(voxel.place.head<2>()) <= front - form.depth + max_back;
+    };
     const auto is_part = [&](std::uint32_t i) {
         const FurnitureVoxel& voxel = all.voxels[i];
         const Eigen::Vector2d from_center = voxel.place.head<2>() - rectangle.center;
         const double to_side = 0.5 * rectangle.length - std::abs(from_center.dot(rectangle.axis));
-        if (to_side <= thickness || voxel.is_near_wall) return true;
+        if (to_side <= thickness || voxel.is_near_wall || is_back(voxel)) return true;
+        const double along = from_center.dot(rectangle.axis);
+        const bool is_divider = std::any_of(dividers.begin(), dividers.end(), [&](double at) {
+            return std::abs(along - at) <= thickness;
+        });
+        if (is_divider) return true;
         return std::any_of(boards.begin(), boards.end(), [&](double height) {
             return std::abs(voxel.height - height) <= thickness;
         });

@@ -8,6 +8,7 @@
 
 #include "roomscribe/core/quantile.hpp"
 #include "roomscribe/interpretation/furniture/plan_rectangle.hpp"
+#include "roomscribe/interpretation/furniture/tall_pieces.hpp"
 
 namespace roomscribe {
 namespace {
@@ -42,8 +43,8 @@ RowPart measure(const FurnitureVoxels& all, std::span<const LevelSlab> slabs,
     return part;
 }
 
-bool are_one_row(const FurnitureVoxels& all, const std::vector<PieceDraft>& drafts,
-                 const RowPart& a, const RowPart& b) {
+bool are_one_row(const FurnitureVoxels& all, const RoomSurfaces& surfaces,
+                 const std::vector<PieceDraft>& drafts, const RowPart& a, const RowPart& b) {
     const PieceDraft& of_a = drafts[a.draft];
     const PieceDraft& of_b = drafts[b.draft];
     const FurnitureVoxel& some_a = all.voxels[of_a.voxels.front()];
@@ -55,14 +56,16 @@ bool are_one_row(const FurnitureVoxels& all, const std::vector<PieceDraft>& draf
     places.insert(places.end(), others.begin(), others.end());
     const PlanRectangle both = smallest_rectangle(places);
     const double width = std::max(a.rectangle.width, b.rectangle.width);
-    return both.width >= min_depth && both.width <= std::min(max_depth, width + 0.1) &&
+    // Where only fronts were seen, the wall behind tells how deep they are.
+    const double depth = std::max(both.width, extended_to_wall(both, surfaces, some_a).width);
+    return depth >= min_depth && both.width <= std::min(max_depth, width + 0.1) &&
            both.length <= std::min(max_length, a.rectangle.length + b.rectangle.length + max_gap);
 }
 
 }  // namespace
 
 void join_worktop_rows(const FurnitureVoxels& all, std::span<const LevelSlab> slabs,
-                       std::vector<PieceDraft>& drafts) {
+                       const RoomSurfaces& surfaces, std::vector<PieceDraft>& drafts) {
     std::vector<RowPart> parts;
     for (std::size_t i = 0; i < drafts.size(); ++i) {
         if (drafts[i].voxels.empty()) continue;
@@ -71,7 +74,7 @@ void join_worktop_rows(const FurnitureVoxels& all, std::span<const LevelSlab> sl
     }
     for (std::size_t i = 0; i < parts.size(); ++i) {
         for (std::size_t j = i + 1; j < parts.size();) {
-            if (!are_one_row(all, drafts, parts[i], parts[j])) {
+            if (!are_one_row(all, surfaces, drafts, parts[i], parts[j])) {
                 ++j;
                 continue;
             }
