@@ -21,9 +21,13 @@ void parallel_for(const Context& context, std::size_t count, std::size_t chunk_s
             run_chunk(chunk);
         return;
     }
-    tbb::task_arena arena(context.num_threads > 0 ? context.num_threads
-                                                  : tbb::task_arena::automatic);
-    arena.execute([&] { tbb::parallel_for(std::size_t{0}, num_chunks, run_chunk); });
+    const auto run_all = [&] { tbb::parallel_for(std::size_t{0}, num_chunks, run_chunk); };
+    // An arena for each of many short loops costs more than the loops on a busy machine.
+    if (context.num_threads <= 0) {
+        run_all();
+    } else {
+        tbb::task_arena(context.num_threads).execute(run_all);
+    }
 }
 
 }  // namespace roomscribe
