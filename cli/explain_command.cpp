@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <span>
+#include <utility>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -11,6 +12,7 @@
 #include "cli/job.hpp"
 #include "cli/scan_unit.hpp"
 #include "cli/text_table.hpp"
+#include "roomscribe/preprocessing/line_center.hpp"
 
 namespace roomscribe::cli {
 namespace {
@@ -49,7 +51,9 @@ ExitCode explain(const JobOptions& options, const std::atomic<bool>& cancel) {
         const Context context = make_context(options, cancel, display);
         JobInput input = load_scans(options.inputs, context);
         const ScanUnit unit = convert_to_metres(input.scans, input.paths, options.unit, context);
-        values = reconstruct(input.scans, settings, context).derived_values;
+        for (Scan& scan : input.scans)
+            locate_scanner(scan);
+        values = reconstruct(std::move(input.scans), settings, context).derived_values;
         if (const auto value = unit_as_derived_value(unit)) values.insert(values.begin(), *value);
     }
     fmt::print("{}", options.as_json ? derived_json(values) : derived_table(values));

@@ -190,6 +190,8 @@ ExitCode run_job_within(const MemoryLimit& memory, std::string_view verb, const 
         convert_to_metres(input.given_poses, summary.unit);
         convert_to_metres(input.stored_poses, summary.unit);
         input.map_shift *= metres_per(summary.unit.unit);
+        for (Scan& scan : input.scans)
+            locate_scanner(scan);
         reconstruction = work(input, settings, context);
         context.throw_if_cancelled();
         note_unit(summary, reconstruction);
@@ -233,7 +235,6 @@ JobInput load_scans(std::span<const std::string> paths, const Context& context,
             const bool several = stored.scan.name != std::filesystem::path(path).filename();
             require_usable(several ? path + " (" + stored.scan.name + ")" : path,
                            stored.scan.cloud);
-            locate_scanner(stored.scan);
             // One shift serves all files.
             if (input.scans.empty()) input.map_shift = stored.map_shift;
             if (stored.map_from_scan) {

@@ -49,9 +49,8 @@ VoxelLabels label_voxels(const SurfaceSample& sample, const std::vector<std::int
 
 }  // namespace
 
-void continue_bent_walls(const PointCloud& map, const SurfaceSample& sample,
-                         const RoomSurfaces& surfaces, PointLabels& labels,
-                         const Context& context) {
+void continue_bent_walls(const SurfaceSample& sample, const RoomSurfaces& surfaces,
+                         PointLabels& labels, const Context& context) {
     std::vector<std::int32_t> wall_of;  // by instance
     for (std::size_t s = 0; s < surfaces.surfaces.size(); ++s) {
         const Component& component = surfaces.surfaces[s].component;
@@ -99,7 +98,7 @@ void continue_bent_walls(const PointCloud& map, const SurfaceSample& sample,
             rim.push_back(voxel);
         }
     }
-    for (std::size_t i = 0; i < map.size(); ++i) {
+    for (std::size_t i = 0; i < labels.labels.size(); ++i) {
         const std::uint32_t voxel = sample.voxel_of_point[i];
         if (voxel == no_voxel || labels.labels[i] != Label::unknown) continue;
         if (voxels.wall[voxel] == none) continue;

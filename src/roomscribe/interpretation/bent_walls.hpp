@@ -14,9 +14,9 @@ namespace roomscribe {
 /// A wall goes on from voxel to voxel of the sample while these have no label, turn from its plane
 /// by less than 20 degrees, and lie no more than a slight slope and the noise deeper or higher than
 /// the last: pictures, boards and fronts are a step away. It ends three tolerances from its plane.
-/// The confidence of such points is half of the wall's. Points of `map`, in the order of `labels`.
-void continue_bent_walls(const PointCloud& map, const SurfaceSample& sample,
-                         const RoomSurfaces& surfaces, PointLabels& labels,
-                         const Context& context = {});
+/// The confidence of such points is half of the wall's. Precondition: labels of the points
+/// that the sample was made of.
+void continue_bent_walls(const SurfaceSample& sample, const RoomSurfaces& surfaces,
+                         PointLabels& labels, const Context& context = {});
 
 }  // namespace roomscribe

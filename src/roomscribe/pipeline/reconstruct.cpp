@@ -181,7 +181,7 @@ void interpret_by_default(Reconstruction& reconstruction, const ScanMap& map,
                        static_cast<std::int32_t>(num_before), seed_of(settings),
                        settings.interpretation.furniture, context);
     label_furniture(sample, furniture, reconstruction.labels);
-    continue_bent_walls(map.cloud, sample, surfaces, reconstruction.labels, context);
+    continue_bent_walls(sample, surfaces, reconstruction.labels, context);
     stages.finish("furniture", 0.97);
     std::vector<MountingFace> faces =
         faces_for_fixtures(sample, patches, surfaces, openings, furniture, num_before);

@@ -51,7 +51,7 @@ struct BentWall {
         labels.instances.push_back(is_wall ? 0 : -1);
         labels.confidences.push_back(is_wall ? 0.8F : 0.0F);
     }
-    void go_on() { continue_bent_walls(sample.cloud, sample, surfaces, labels); }
+    void go_on() { continue_bent_walls(sample, surfaces, labels); }
     Label label_near(const Vector3f& place) const {
         const auto& positions = sample.cloud.positions;
         const auto nearest =
