@@ -78,7 +78,8 @@ void MemoryLimit::require_room(std::span<const Scan> scans) const {
 
 std::string MemoryLimit::exceeded_message() const {
     return fmt::format(
-        "--memory {} was not enough; the stages that were done are kept: give more, with --resume",
+        "--memory {} was not enough: give more; run and register go on where they were with "
+        "--resume",
         size_text(*size_));
 }
 
