@@ -35,6 +35,7 @@ using KnownPoses = std::span<const std::optional<Transform>>;
 /// it. A map's frame is its first scan's, or that of known poses that are kept
 /// (registration.known_poses).
 /// Throws InvalidArgument if there are no scans, or another number of known poses.
+/// A scan without a sensor pose counts as seen from its origin: locate_scanner tells where else.
 Reconstruction register_to_map(std::span<const Scan> scans, const PipelineSettings& settings = {},
                                const Context& context = {}, KnownPoses known_poses = {});
 
