@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Rules that every file keeps: a licence line, a bounded size, LF line ends, and nothing that only
-# makes sense on one machine.
+# Rules that every file keeps: a licence line, a bounded size, LF line ends, nothing that only makes
+# sense on one machine; and a source includes its own header first, so that this compiles alone.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
@@ -15,6 +15,12 @@ violations=$(
             [[ $first =~ ^(//|#)\ SPDX-License-Identifier:\ MIT$ ]] ||
                 printf '%s:1: no SPDX-License-Identifier line\n' "$file"
         done
+    tools/list_sources.sh '*.cpp' | while IFS= read -rd '' file; do
+        header=${file%.cpp}.hpp
+        [[ -f $header ]] || continue
+        first=$(grep -m1 -oP '^ *# *include +["<]\K[^">]+' "$file" || true)
+        [[ $header == */"$first" ]] || printf '%s: does not include its own header first\n' "$file"
+    done
     tools/list_sources.sh '*' | xargs -0 stat -c '%s %n' | while read -r size file; do
         ((size <= max_size)) || printf '%s: %d bytes, more than %d\n' "$file" "$size" "$max_size"
     done

@@ -61,6 +61,7 @@ FileContents read_point_cloud2(const RosMessage& message, const Context& context
     const bool is_big = message.number("is_bigendian").value_or(0.0) != 0.0;
     for (std::size_t row = 0; row < height && width > 0; ++row) {
         std::vector<FieldSource> sources;
+        sources.reserve(offsets.size());
         for (const std::size_t offset : offsets)
             sources.push_back({data->bytes.data() + row * row_step + offset, step});
         decoder.decode(sources, row * width, width, is_big ? std::endian::big : std::endian::little,

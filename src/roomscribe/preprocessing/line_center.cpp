@@ -232,7 +232,7 @@ std::optional<Vector3d> center_of(const std::vector<Line>& lines) {
 std::optional<Eigen::Vector3d> find_line_center(const PointCloud& cloud) {
     if (!cloud.grid || cloud.grid->rows * cloud.grid->columns != cloud.size()) return std::nullopt;
     for (const bool by_row : {true, false}) {
-        const auto center = center_of(take_lines(cloud, by_row));
+        auto center = center_of(take_lines(cloud, by_row));
         if (center) return center;
     }
     return std::nullopt;
