@@ -9,6 +9,7 @@
 
 #include "roomscribe/core/error.hpp"
 #include "roomscribe/core/parallel.hpp"
+#include "roomscribe/interpretation/openings/window_parts.hpp"
 
 namespace roomscribe {
 namespace {
@@ -166,31 +167,29 @@ class OpeningTest {
         along_ = face.along.cast<float>();
         up_ = up.cast<float>();
         frame_ = opening.hole;
-        if (opening.type == OpeningType::window) {
-            leaf_ = frame_.grown(-opening.frame_width, -opening.frame_width, -opening.frame_width);
-        } else {
-            leaf_ = frame_;
-            frame_ = leaf_.grown(opening.frame_width, 0.0, opening.frame_width);
-        }
+        leaf_ = frame_;
+        frame_ = opening.type == OpeningType::window
+                     ? leaf_.grown(hole_slack, hole_slack, hole_slack)
+                     : leaf_.grown(opening.frame_width, 0.0, opening.frame_width);
     }
 
-    /// Number of the component in Openings::components, or nothing.
+    const WallOpening& opening() const { return opening_; }
+
+    /// In the wall, in or just beside the hole or the casing.
+    bool reaches(const Eigen::Vector3f& point) const {
+        const float depth = offset_ - normal_.dot(point);
+        return depth <= static_cast<float>(max_wall_depth) && depth >= -max_casing &&
+               is_in(frame_, static_cast<double>(along_.dot(point)),
+                     static_cast<double>(up_.dot(point)));
+    }
+
+    /// Number of the component in Openings::components that a point in reach belongs to, or
+    /// nothing. Not for windows.
     std::optional<std::size_t> component_of(const Eigen::Vector3f& point) const {
         const float depth = offset_ - normal_.dot(point);
-        if (depth > static_cast<float>(max_wall_depth) || depth < -max_casing) return std::nullopt;
         const double along = static_cast<double>(along_.dot(point));
         const double above = static_cast<double>(up_.dot(point));
-        if (!is_in(frame_, along, above)) return std::nullopt;
         const auto leaf_depth = static_cast<float>(opening_.depth);
-        if (opening_.type == OpeningType::window) {
-            const auto frame_depth = static_cast<float>(opening_.frame_depth);
-            // Before the frame lies the reveal, which is the wall's.
-            if (depth < 0.5F * frame_depth) return std::nullopt;
-            // Mullions and sashes lie in the plane of the frame, panes behind it.
-            const bool is_pane = is_in(leaf_.grown(-rebate, -rebate, -rebate), along, above) &&
-                                 depth > 0.5F * (frame_depth + leaf_depth);
-            return opening_.components[is_pane ? 0 : 1];
-        }
         if (is_in(leaf_, along, above)) {
             // The lining lies along the sides, before and behind the leaf.
             const bool is_at_side = std::min({along - leaf_.start, leaf_.end - along,
@@ -203,9 +202,14 @@ class OpeningTest {
         return opening_.components[1];
     }
 
+    HolePoint place_in_hole(const Eigen::Vector3f& point) const {
+        return {along_.dot(point) - static_cast<float>(leaf_.start),
+                up_.dot(point) - static_cast<float>(leaf_.bottom), offset_ - normal_.dot(point)};
+    }
+
   private:
     static constexpr float max_casing = 0.04F;    // m out of the wall
-    static constexpr double rebate = 0.02;        // m, of the frame's inner sides, seen aslant
+    static constexpr double hole_slack = 0.03;    // m: a hole is known to about a cell
     static constexpr double lining_width = 0.08;  // m, of what rays see of it aslant
     static constexpr float leaf_reach = 0.06F;    // m: half of the leaf, its panels and noise
 
@@ -221,6 +225,12 @@ class OpeningTest {
     Eigen::Vector3f up_;
     WallRectangle leaf_;
     WallRectangle frame_;
+};
+
+/// A point in reach of a window.
+struct WindowPoint {
+    std::size_t point = 0;
+    std::size_t test = 0;
 };
 
 /// Gives the points of doors, windows and their frames to these.
@@ -246,6 +256,7 @@ void label_openings(const PointCloud& map, const SurfaceSample& sample,
         labels.instances[point] = component.instance;
         labels.confidences[point] = static_cast<float>(component.confidence);
     };
+    std::vector<std::vector<WindowPoint>> at_windows((map.size() + chunk - 1) / chunk);
     parallel_for(context, map.size(), chunk, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             const std::uint32_t voxel = sample.voxel_of_point[i];
@@ -257,14 +268,46 @@ void label_openings(const PointCloud& map, const SurfaceSample& sample,
                 give(i, static_cast<std::size_t>(leaf_of_voxel[voxel]));
                 continue;
             }
-            for (const OpeningTest& test : tests) {
-                const auto component = test.component_of(map.positions[i]);
+            for (std::size_t t = 0; t < tests.size(); ++t) {
+                if (!tests[t].reaches(map.positions[i])) continue;
+                if (tests[t].opening().type == OpeningType::window) {
+                    at_windows[begin / chunk].push_back({i, t});
+                    break;
+                }
+                const auto component = tests[t].component_of(map.positions[i]);
                 if (!component) continue;
                 give(i, *component);
                 break;
             }
         }
     });
+    // What of a window is frame and what is pane is told by all of its points together.
+    std::vector<std::vector<std::size_t>> points_of_test(tests.size());
+    for (const std::vector<WindowPoint>& part : at_windows) {
+        for (const WindowPoint& found : part)
+            points_of_test[found.test].push_back(found.point);
+    }
+    for (std::size_t t = 0; t < tests.size(); ++t) {
+        const std::vector<std::size_t>& points = points_of_test[t];
+        if (points.empty()) continue;
+        std::vector<HolePoint> in_hole;
+        in_hole.reserve(points.size());
+        double noise = 0.0;
+        for (const std::size_t i : points) {
+            in_hole.push_back(tests[t].place_in_hole(map.positions[i]));
+            noise += static_cast<double>(sample.noise_of_voxel[sample.voxel_of_point[i]]);
+        }
+        const WallOpening& opening = tests[t].opening();
+        const std::vector<WindowPart> parts =
+            sort_window_points(in_hole,
+                               {opening.hole.width(), opening.hole.height(), opening.frame_width,
+                                opening.frame_depth, opening.depth},
+                               noise / static_cast<double>(points.size()));
+        for (std::size_t k = 0; k < points.size(); ++k) {
+            if (parts[k] != WindowPart::reveal)
+                give(points[k], opening.components[parts[k] == WindowPart::pane ? 0 : 1]);
+        }
+    }
 }
 
 }  // namespace
