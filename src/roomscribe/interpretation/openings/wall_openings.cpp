@@ -12,6 +12,7 @@
 #include "roomscribe/core/parallel.hpp"
 #include "roomscribe/core/quantile.hpp"
 #include "roomscribe/core/units.hpp"
+#include "roomscribe/interpretation/openings/door_sides.hpp"
 #include "roomscribe/interpretation/openings/flat_doors.hpp"
 #include "roomscribe/interpretation/openings/mirror_test.hpp"
 #include "roomscribe/interpretation/openings/opening_components.hpp"
@@ -552,6 +553,8 @@ Openings find_openings(const ScanMap& map, std::span<const Ray> rays, const Surf
                         [&](const WallOpening& known) { return is_same(known, side, surfaces); });
         if (!is_known) result.openings.push_back(std::move(side));
     }
+    fit_door_sides(map.cloud, sample, surfaces, room_from_map.row(2).transpose(), result.openings,
+                   context);
     result.components =
         make_opening_components(result.openings, surfaces, room_from_map.row(2).transpose());
     return result;
