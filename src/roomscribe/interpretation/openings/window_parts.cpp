@@ -187,7 +187,8 @@ class WindowSorter {
                           .value_or(frame_depth_ + hole_.pane_depth - hole_.frame_depth);
     }
 
-    /// The cells that the frame covers, if it was seen in most of those along the hole's sides.
+    /// The cells that the frame covers, if it was seen in most of those along the hole's sides
+    /// that no blind hides.
     void find_frame_cells() {
         constexpr double min_seen = 0.7;
         for (const HolePoint& point : points_) {
@@ -201,6 +202,7 @@ class WindowSorter {
         int seen = 0;
         int total = 0;
         const auto count = [&](int column, int row) {
+            if (blind_depth_ && (row + 1) * bar_cell > blind_bottom_) return;
             seen += frame_cells_.holds(column, row) ? 1 : 0;
             ++total;
         };
@@ -213,7 +215,7 @@ class WindowSorter {
             count(first, row);
             count(columns - 1 - first, row);
         }
-        is_frame_dense_ = seen >= min_seen * total;
+        is_frame_dense_ = total > 0 && seen >= min_seen * total;
     }
 
     std::span<const HolePoint> points_;
