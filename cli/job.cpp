@@ -53,10 +53,10 @@ RunRecord make_record(std::string_view verb, const JobOptions& options,
     record.version = ROOMSCRIBE_VERSION;
     record.command = verb;
     record.settings = list_settings(settings);
-    for (const auto& paths : {options.inputs, options.pose_files}) {
-        for (const std::string& path : paths)
-            record.inputs.push_back(describe_input(path));
-    }
+    for (const std::string& path : options.inputs)
+        record.inputs.push_back(describe_input(path, FileRole::scan));
+    for (const std::string& path : options.pose_files)
+        record.inputs.push_back(describe_input(path, FileRole::poses));
     record.num_threads = options.num_threads > 0
                              ? options.num_threads
                              : static_cast<int>(std::thread::hardware_concurrency());
@@ -100,7 +100,7 @@ std::optional<EvaluationSummary> score(const JobOptions& options,
 /// Maps that could not be joined to the first have folders of their own in its folder. Returns
 /// where the report lies.
 std::filesystem::path write_results(const std::filesystem::path& folder,
-                                    const Reconstruction& reconstruction, const ReportInfo& info,
+                                    const Reconstruction& reconstruction, ReportInfo info,
                                     const Context& context) {
     for (std::size_t i = 0; i < reconstruction.apart.size(); ++i) {
         const std::filesystem::path own = folder / folder_of_apart(i);
@@ -113,6 +113,7 @@ std::filesystem::path write_results(const std::filesystem::path& folder,
     if (!reconstruction.labels.labels.empty()) {
         write_interpretation(folder, reconstruction, context);
     }
+    info.run.results = describe_results(folder);
     write_run_record(folder, info.run, reconstruction);
     std::filesystem::path report = folder / "report.html";
     write_html_report(report, reconstruction, info, context);
@@ -183,7 +184,8 @@ ExitCode run_job_within(const MemoryLimit& memory, std::string_view verb, const 
         context.results = &stages;
         const std::optional<std::string> corrections_path = find_corrections(options);
         const std::vector<Correction> corrections = read_corrections(corrections_path);
-        if (corrections_path) info.run.inputs.push_back(describe_input(*corrections_path));
+        if (corrections_path)
+            info.run.inputs.push_back(describe_input(*corrections_path, FileRole::corrections));
         JobInput input = load_scans(options.inputs, context, memory);
         load_poses(input, options, context);
         summary.unit = convert_to_metres(input.scans, input.paths, options.unit, context);

@@ -271,7 +271,9 @@ std::string render_html_report(const Reconstruction& reconstruction, const Repor
     html += section("Derived values", derived_values_table(reconstruction));
     html += section("Settings", settings_part(run));
     html += section("Cost", stages_table(reconstruction));
-    html += section("Input files", inputs_table(run));
+    std::vector<FileRecord> files = run.inputs;
+    files.insert(files.end(), run.results.begin(), run.results.end());
+    html += section("Files", files_table(files));
     html +=
         fmt::format("</main>\n<footer>roomscribe {}{}</footer>\n<script>{}</script>\n",
                     escape_html(run.version),
