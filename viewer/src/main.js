@@ -23,6 +23,8 @@ THREE.ColorManagement.enabled = false;
 
 const ceilingLabel = 2;
 const inputColoring = 7;
+/// Of points that stand for many, while not all are drawn: larger ones hide what the picture is of.
+const largestGrowth = 4;
 const restTime = 120;  // ms without a change after which a picture is finished
 
 /// What the points and the model fill, without what shines in through windows.
@@ -71,6 +73,8 @@ class Viewer {
     this.scene = new THREE.Scene();
     this.scanners = this.#makeScanners();
     this.eyeDome = new EyeDome();
+    this.frames = 0;
+    this.turn = 0;  // of pictures: what belongs to an older one ends
     this.pacing = new Pacing(this.renderer.getContext());
     this.picking = new Picking(this.renderer, this.cloud, this.meshes);
     this.navigation = new Navigation(this.canvas, corners, () => this.draw());
@@ -78,7 +82,6 @@ class Viewer {
     this.measuring = new Measuring(this.overlay, (text) => this.announce(text));
     this.scene.add(this.meshes.group, this.meshes.highlight, this.measuring.group, this.scanners);
     this.#listen();
-    this.frames = 0;
     this.apply();
     this.navigation.showAll(true);
   }
@@ -192,7 +195,9 @@ class Viewer {
     this.navigation.camera.aspect = width / height;
     this.navigation.camera.updateProjectionMatrix();
     for (const material of [this.meshes.accent, this.measuring.material]) material.resolution.set(width, height);
-    this.draw();
+    // A canvas of a new size is empty: it must not be seen so.
+    this.isAtRest = false;
+    this.#drawNow();
   }
 
   isShown(component) {
@@ -252,7 +257,7 @@ class Viewer {
     uniforms.selected.value = !isInput && state.selected && state.selected.label !== undefined ? model.components.indexOf(state.selected) + 1 : 0;
     const height = this.renderer.domElement.height;
     uniforms.pixelsPerUnit.value = height / (2 * Math.tan(THREE.MathUtils.degToRad(this.navigation.camera.fov / 2)));
-    uniforms.pointSize.value = 1.35 * state.size * (this.cloud.spacing || 0.01) / Math.sqrt(share);
+    uniforms.pointSize.value = 1.35 * state.size * (this.cloud.spacing || 0.01) * Math.min(largestGrowth, 1 / Math.sqrt(share));
     // Streamed points are as far apart on the screen wherever they are.
     uniforms.maxPixels.value = this.stream ? 3.2 * state.size * this.renderer.getPixelRatio() : 0.02 * height + 4;
   }
@@ -291,7 +296,7 @@ class Viewer {
 
   /// One picture: of as many points as the graphics draw in the time of a frame. Where these are not all,
   /// the finished picture follows once nothing has changed for a while.
-  #drawNow(now) {
+  #drawNow(now = performance.now()) {
     const { navigation, cloud, pacing } = this;
     // What moves asks for a picture, and this is it.
     navigation.advance(Math.min(0.1, (now - (this.lastFrame ?? now)) / 1000));
@@ -305,6 +310,8 @@ class Viewer {
     this.overlay.update(navigation.camera, this.canvas.clientWidth, this.canvas.clientHeight);
     this.drawnShare = share;
     ++this.frames;
+    ++this.turn;
+    clearTimeout(this.resting);
     this.#whenDrawn(share * cloud.count, true, () => {
       this.resting = setTimeout(() => this.#finish(share === 1 ? 1 : 0), restTime);
     });
@@ -313,7 +320,9 @@ class Viewer {
 
   /// Waits for the graphics. What was asked for meanwhile comes first, else `next`.
   #whenDrawn(points, isFrame, next) {
+    const { turn } = this;
     this.pacing.follow(points, isFrame, () => {
+      if (turn !== this.turn) return;
       if (this.pending) this.#request();
       else next();
     });

@@ -12,7 +12,11 @@ export class Pacing {
     this.gl = gl;
     this.rate = 3000;  // points per ms; a start that a slow machine draws in half a second
     this.rest = 5;     // ms that a picture takes beside its points
-    this.isBusy = false;
+    this.inFlight = 0;
+  }
+
+  get isBusy() {
+    return this.inFlight > 0;
   }
 
   /// Points of a picture while things move.
@@ -32,7 +36,7 @@ export class Pacing {
     const start = performance.now();
     const fence = gl.fenceSync(gl.SYNC_GPU_COMMANDS_COMPLETE, 0);
     gl.flush();
-    this.isBusy = true;
+    ++this.inFlight;
     const ask = () => {
       const state = fence ? gl.clientWaitSync(fence, 0, 0) : gl.CONDITION_SATISFIED;
       if (state === gl.TIMEOUT_EXPIRED) {
@@ -40,7 +44,7 @@ export class Pacing {
         return;
       }
       if (fence) gl.deleteSync(fence);
-      this.isBusy = false;
+      --this.inFlight;
       this.#learn(points, isFrame, Math.max(0.5, performance.now() - start));
       then();
     };

@@ -143,6 +143,8 @@ footer { margin-top: 4.5rem; padding-top: 1.25rem; border-top: 1px solid var(--l
   .frame { margin-left: 1.7rem; }
   .tick { font-size: .65rem; }
   .legend { margin-left: 0; gap: .3rem 1rem; }
+  .elevations figure { overflow-x: auto; }
+  .elevation { max-width: none; }
   .tag { font-size: .68rem; padding: 0 .35rem; }
   .station { width: 1.15rem; height: 1.15rem; font-size: .6rem; line-height: .9rem; }
 }
@@ -154,13 +156,21 @@ footer { margin-top: 4.5rem; padding-top: 1.25rem; border-top: 1px solid var(--l
   }
   @page { margin: 16mm 14mm; }
   body { padding: 0; max-width: none; font-size: 10pt; }
-  h2 { margin-top: 2.5rem; break-after: avoid; }
+  h2 { margin-top: 2rem; break-after: avoid; }
+  figcaption, caption { break-after: avoid; }
   #viewer, figure, tr, .checks, .figures { break-inside: avoid; }
-  .scroll { overflow: visible; }
-  .plot { max-width: calc(var(--aspect) * 32rem); }
-  table { font-size: 8pt; }
-  th, td { padding-right: .6rem; }
-  .wide { min-width: 0; }
+  .figures { margin-top: 1.5rem; gap: 1rem; }
+  .figures dd { font-size: 1.25rem; }
+  figure { margin-bottom: 1.5rem; }
+  .scroll { overflow: visible; margin-bottom: 1.5rem; }
+  .plot { max-width: calc(var(--aspect) * 23rem); }
+  .elevations figure { margin-bottom: 1rem; }
+  table { font-size: 7.5pt; }
+  th, td { padding: .3rem .45rem .3rem 0; }
+  thead th { font-size: 7pt; }
+  thead button::after { content: none; }
+  .wide { min-width: 11rem; }
+  code { overflow-wrap: anywhere; }
   * { print-color-adjust: exact; -webkit-print-color-adjust: exact; }
 }
 )css";
