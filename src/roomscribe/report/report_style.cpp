@@ -56,6 +56,11 @@ figcaption span { color: var(--soft); }
 .pieces figure { margin-bottom: 2rem; }
 .pieces .scale { display: none; }
 .pieces .plot { max-width: max(11rem, calc(var(--aspect) * 22rem)); }
+.stages { display: grid; grid-template-columns: repeat(auto-fill, minmax(min(24rem, 100%), 1fr));
+  gap: 0 2rem; }
+.stages figure { margin-bottom: 2rem; }
+.faint img { opacity: .3; }
+.stage-line { fill: none; stroke-width: 1.5; }
 .drawing { display: block; max-width: 100%; height: auto; background: #fff; border-radius: .3rem; }
 .elevations { display: flex; flex-wrap: wrap; gap: 0 2rem; align-items: flex-end; }
 .elevations figure { margin: 0 0 2rem; max-width: 100%; }
@@ -164,6 +169,8 @@ footer { margin-top: 4.5rem; padding-top: 1.25rem; border-top: 1px solid var(--l
   figure { margin-bottom: 1.5rem; }
   .scroll { overflow: visible; margin-bottom: 1.5rem; }
   .plot { max-width: calc(var(--aspect) * 23rem); }
+  .stages { grid-template-columns: 1fr 1fr; gap: 0 1rem; }
+  .drawing { max-height: 21cm; width: auto; }
   .elevations figure { margin-bottom: 1rem; }
   table { font-size: 7.5pt; }
   th, td { padding: .3rem .45rem .3rem 0; }
