@@ -298,8 +298,8 @@ class Viewer {
   /// the finished picture follows once nothing has changed for a while.
   #drawNow(now = performance.now()) {
     const { navigation, cloud, pacing } = this;
-    // What moves asks for a picture, and this is it.
-    navigation.advance(Math.min(0.1, (now - (this.lastFrame ?? now)) / 1000));
+    // What moves asks for a picture, and this is it. The shortest press of a key is a step.
+    navigation.advance(this.lastFrame ? Math.min(0.2, (now - this.lastFrame) / 1000) : 0.05);
     this.pending = false;
     this.lastFrame = navigation.isMoving ? now : undefined;
     this.#hideNearWalls();
