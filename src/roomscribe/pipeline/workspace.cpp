@@ -126,8 +126,18 @@ std::string folder_of_apart(std::size_t i) {
 
 void remove_apart_from(const std::filesystem::path& folder, std::size_t count) {
     // Whatever else has such a name is not ours.
-    for (std::size_t i = count; exists(folder / folder_of_apart(i) / "run.json"); ++i)
-        remove_all(folder / folder_of_apart(i));
+    for (std::size_t i = count; exists(folder / folder_of_apart(i) / "run.json"); ++i) {
+        const std::filesystem::path own = folder / folder_of_apart(i);
+        if (!exists(own / "corrections.json")) {
+            remove_all(own);
+            continue;
+        }
+        std::vector<std::filesystem::path> ours;
+        for (const auto& entry : std::filesystem::directory_iterator(own))
+            if (entry.path().filename() != "corrections.json") ours.push_back(entry.path());
+        for (const std::filesystem::path& path : ours)
+            remove_all(path);
+    }
 }
 
 void write_registration(const std::filesystem::path& folder, const Reconstruction& reconstruction,

@@ -52,7 +52,8 @@ void prepare_output_folder(const std::filesystem::path& folder);
 /// first, for the map itself is set 1.
 std::string folder_of_apart(std::size_t i);
 
-/// Removes the folders of maps apart that an earlier run left in `folder`, from the `count`-th on.
+/// Removes the folders of maps apart that an earlier run left in `folder`, from the `count`-th on;
+/// of one with a corrections.json that file stays, for it is the user's.
 void remove_apart_from(const std::filesystem::path& folder, std::size_t count);
 
 // Each of the following writes into an existing folder the files of docs/formats.md, every one

@@ -141,6 +141,10 @@ TEST(RemoveApartFrom, TakesAwayWhatAnEarlierRunLeftAndNothingElse) {
     remove_apart_from(folder.path(), 1);
     EXPECT_EQ(folder_of_apart(0), "set-2");
     EXPECT_THAT(names_in(folder.path()), UnorderedElementsAre("set-2", "set-4"));
+    // Corrections are the user's.
+    std::ofstream(folder / "set-2/corrections.json") << "{}";
+    remove_apart_from(folder.path(), 0);
+    EXPECT_THAT(names_in(folder / "set-2"), UnorderedElementsAre("corrections.json"));
 }
 
 TEST(WriteRegistration, NeedsAPoseSlotPerScan) {
