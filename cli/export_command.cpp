@@ -27,6 +27,7 @@
 #include "roomscribe/io/atomic_file.hpp"
 #include "roomscribe/io/byte_reader.hpp"
 #include "roomscribe/io/point_cloud_io.hpp"
+#include "roomscribe/pipeline/labelled_inputs.hpp"
 
 namespace roomscribe::cli {
 namespace {
@@ -115,13 +116,18 @@ void write_s3dis(const Result& result, const fs::path& folder) {
     }
 }
 
+void write_labelled(const Result& result, const fs::path& folder) {
+    const OutputFolder output(folder);
+    write_labelled_inputs(result.scene_path.parent_path(), output.path());
+}
+
 struct Target {
     std::string_view name;
     std::string_view place;  ///< in the result's folder, unless told otherwise
     void (*write)(const Result& result, const fs::path& path);
 };
 
-constexpr std::array<Target, 8> targets{{
+constexpr std::array<Target, 9> targets{{
     {"glb", "model.glb", write_glb},
     {"svg", "plan.svg", write_svg},
     {"dxf", "plan.dxf", write_dxf},
@@ -130,6 +136,7 @@ constexpr std::array<Target, 8> targets{{
     {"graph", "graph.json", write_graph},
     {"s3dis", "s3dis", write_s3dis},
     {"scannet", "scannet.ply", write_scannet},
+    {"labelled", "labelled", write_labelled},
 }};
 
 ExitCode export_result(const ExportOptions& options, const std::atomic<bool>& cancel) {
@@ -170,22 +177,24 @@ void add_export_command(CLI::App& program, Action& action) {
     verb.add_option(
             "--to", options->targets,
             "glb (3D model, glTF), svg and dxf (floor plans), ifc (IFC4), csv (schedules of "
-            "rooms, walls, doors, windows, furniture, handles), graph (JSON); several may "
-            "be given")
+            "rooms, walls, doors, windows, furniture, handles), graph (JSON), s3dis and scannet "
+            "(labelled points), labelled (your own scans, with a label per point); several may be "
+            "given")
         ->type_name("FORMAT")
         ->delimiter(',')
         ->allow_extra_args(false)
         ->check(CLI::IsMember(names).description(""))
         ->required();
     verb.add_option("-o,--output", options->output,
-                    "File to write (csv, s3dis: folder); folder, where several formats are given. "
+                    "File to write (csv, s3dis, labelled: folder); folder, where several formats "
+                    "are given. "
                     "Else OUT/model.glb, plan.svg, plan.dxf, model.ifc, schedules/, graph.json, "
-                    "s3dis/, scannet.ply")
+                    "s3dis/, scannet.ply, labelled/")
         ->type_name("PATH");
     verb.footer(
         "All is in metres in the room frame: z up, floor at z = 0, x and y along the "
         "dominant walls.\nglTF has y up: (x, y, z) becomes (x, z, -y). SVG is at 1:50 in "
-        "millimetres of paper.\n");
+        "millimetres of paper.\nLabelled scans stay in their own frame and unit.\n");
     verb.callback([options, &action] {
         action = [options](const std::atomic<bool>& cancel) {
             return export_result(*options, cancel);

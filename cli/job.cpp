@@ -53,10 +53,10 @@ RunRecord make_record(std::string_view verb, const JobOptions& options,
     record.version = ROOMSCRIBE_VERSION;
     record.command = verb;
     record.settings = list_settings(settings);
-    for (const auto& paths : {options.inputs, options.pose_files}) {
-        for (const std::string& path : paths)
-            record.inputs.push_back(describe_input(path));
-    }
+    for (const std::string& path : options.inputs)
+        record.inputs.push_back(describe_input(path, FileRole::scan));
+    for (const std::string& path : options.pose_files)
+        record.inputs.push_back(describe_input(path, FileRole::poses));
     record.num_threads = options.num_threads > 0
                              ? options.num_threads
                              : static_cast<int>(std::thread::hardware_concurrency());
@@ -100,7 +100,7 @@ std::optional<EvaluationSummary> score(const JobOptions& options,
 /// Maps that could not be joined to the first have folders of their own in its folder. Returns
 /// where the report lies.
 std::filesystem::path write_results(const std::filesystem::path& folder,
-                                    const Reconstruction& reconstruction, const ReportInfo& info,
+                                    const Reconstruction& reconstruction, ReportInfo info,
                                     const Context& context) {
     for (std::size_t i = 0; i < reconstruction.apart.size(); ++i) {
         const std::filesystem::path own = folder / folder_of_apart(i);
@@ -113,6 +113,7 @@ std::filesystem::path write_results(const std::filesystem::path& folder,
     if (!reconstruction.labels.labels.empty()) {
         write_interpretation(folder, reconstruction, context);
     }
+    info.run.results = describe_results(folder);
     write_run_record(folder, info.run, reconstruction);
     std::filesystem::path report = folder / "report.html";
     write_html_report(report, reconstruction, info, context);
@@ -126,11 +127,28 @@ std::optional<std::string> find_corrections(const JobOptions& options) {
     return std::filesystem::exists(beside) ? std::optional(beside.string()) : std::nullopt;
 }
 
-/// Read before the work starts, so that a long run does not end on a wrong file.
-std::vector<Correction> read_corrections(const std::optional<std::string>& path) {
-    if (!path) return {};
-    const MappedFile file(*path, "corrections JSON");
-    return corrections_from_json(file.text(), *path);
+std::vector<Correction> read_corrections(const std::filesystem::path& path) {
+    const MappedFile file(path, "corrections JSON");
+    return corrections_from_json(file.text(), path.string());
+}
+
+/// Those of the map, then those of each map apart that an earlier run left, from its own folder:
+/// read before the work starts, so that a long run does not end on a wrong file.
+std::vector<std::vector<Correction>> read_all_corrections(const JobOptions& options,
+                                                          RunRecord& record) {
+    std::vector<std::vector<Correction>> corrections(1);
+    const auto read = [&](const std::filesystem::path& path) {
+        corrections.back() = read_corrections(path);
+        record.inputs.push_back(describe_input(path, FileRole::corrections));
+    };
+    if (const auto path = find_corrections(options)) read(*path);
+    const std::filesystem::path output = options.output;
+    for (std::size_t i = 0; exists(output / folder_of_apart(i)); ++i) {
+        corrections.emplace_back();
+        const std::filesystem::path path = output / folder_of_apart(i) / "corrections.json";
+        if (exists(path)) read(path);
+    }
+    return corrections;
 }
 
 /// Corrections come in the coordinates of files. Returns what is to be said, in one line.
@@ -150,6 +168,21 @@ std::string correct(Reconstruction& reconstruction, std::vector<Correction> corr
         text += "; " + line;
     reconstruction.derived_values.push_back(
         {"corrections", static_cast<double>(outcome.num_applied), "", text});
+    return text;
+}
+
+/// The same for the map and the maps apart.
+std::string correct_all(Reconstruction& reconstruction,
+                        std::vector<std::vector<Correction>> corrections) {
+    std::string text = correct(reconstruction, std::move(corrections.front()));
+    for (std::size_t i = 1; i < corrections.size(); ++i) {
+        if (corrections[i].empty()) continue;
+        const std::string own =
+            i <= reconstruction.apart.size()
+                ? correct(reconstruction.apart[i - 1], std::move(corrections[i]))
+                : "its corrections are left alone: there is no such map";
+        text += fmt::format("{}{}: {}", text.empty() ? "" : "; ", folder_of_apart(i - 1), own);
+    }
     return text;
 }
 
@@ -181,9 +214,7 @@ ExitCode run_job_within(const MemoryLimit& memory, std::string_view verb, const 
                            options.resume ? RunStart::resumed : RunStart::afresh,
                            context.on_message);
         context.results = &stages;
-        const std::optional<std::string> corrections_path = find_corrections(options);
-        const std::vector<Correction> corrections = read_corrections(corrections_path);
-        if (corrections_path) info.run.inputs.push_back(describe_input(*corrections_path));
+        std::vector<std::vector<Correction>> corrections = read_all_corrections(options, info.run);
         JobInput input = load_scans(options.inputs, context, memory);
         load_poses(input, options, context);
         summary.unit = convert_to_metres(input.scans, input.paths, options.unit, context);
@@ -195,7 +226,7 @@ ExitCode run_job_within(const MemoryLimit& memory, std::string_view verb, const 
         reconstruction = work(input, settings, context);
         context.throw_if_cancelled();
         note_unit(summary, reconstruction);
-        summary.corrections = correct(reconstruction, corrections);
+        summary.corrections = correct_all(reconstruction, std::move(corrections));
         info.score = summary.score = score(options, reconstruction, context);
         summary.report = write_results(output.path(), reconstruction, info, context);
         stages.remove();

@@ -8,6 +8,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "roomscribe/io/point_cloud_io.hpp"
+#include "support/simulated_rooms.hpp"
 #include "system/program.hpp"
 
 namespace roomscribe::test {
@@ -80,6 +82,32 @@ TEST(Corrections, AreReadBeforeTheWorkAndNamedWhereWrong) {
     expect_error(roomscribe(interpret), 3, {"mine.json"});
     write_corrections(file, {{{"action", "erase"}, {"element", {{"label", "wall"}}}}});
     expect_error(roomscribe(interpret), 3, {"mine.json", "corrections[0].action", "erase"});
+}
+
+TEST(Corrections, OfAMapApartLieInItsFolder) {
+    const TemporaryFolder folder;
+    std::vector<Scan> scans = scan_furnished_room(1, 20.0);
+    const Transform in_room(Eigen::Translation3d(2.0, 1.5, 1.4));
+    scans.at(2).cloud = simulate_scan(other_room(), in_room, 1, 20.0).cloud;
+    const fs::path out = folder / "out";
+    std::vector<std::string> run{"run", "-o", out.string()};
+    for (const Scan& scan : scans) {
+        run.push_back((folder / scan.name).string());
+        write_point_cloud(run.back(), scan.cloud);
+    }
+    ASSERT_EQ(roomscribe(run).exit_code, 0);
+    const fs::path own = out / "set-2";
+    const Json before = read_json(own / "scene.json");
+    ASSERT_FALSE(before.at("components").empty());
+    const Json element = before.at("components").front();
+    write_corrections(own / "corrections.json", {{{"action", "reject"}, {"element", element}}});
+    const ProgramResult result = roomscribe(run);
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_THAT(result.out, HasSubstr("set-2: 1 of 1 corrections are applied"));
+    const std::string label = element.at("label");
+    EXPECT_EQ(num_with_label(read_json(own / "scene.json"), label),
+              num_with_label(before, label) - 1);
+    EXPECT_TRUE(fs::exists(own / "corrections.json"));
 }
 
 }  // namespace

@@ -119,5 +119,78 @@ TEST(ExportOfPoints, GivesEveryPointOnce) {
     EXPECT_EQ(in_things, num_points);
 }
 
+const Channel* find_channel_of(const PointCloud& cloud, const std::string& name) {
+    const auto found =
+        std::find_if(cloud.channels.begin(), cloud.channels.end(),
+                     [&name](const Channel& channel) { return channel.name == name; });
+    return found == cloud.channels.end() ? nullptr : &*found;
+}
+
+/// One scan in many formats, with a column of the user's own and one that is called as ours.
+std::vector<std::string> write_in_formats(const fs::path& folder) {
+    PointCloud cloud = read_scan(write_room_scans(folder, 1).front()).cloud;
+    cloud = select_points(cloud, finite_points(cloud));
+    Channel own{"wetness", ScalarType::uint16, 1, {}};
+    Channel label{"label", ScalarType::uint8, 1, {}};
+    for (std::size_t i = 0; i < cloud.size(); ++i) {
+        own.values.push_back(static_cast<std::byte>(i % 251));
+        own.values.push_back(static_cast<std::byte>(i % 7));
+        label.values.push_back(static_cast<std::byte>(i % 5));
+    }
+    cloud.channels = {own, label};
+    std::vector<std::string> paths;
+    for (const char* name : {"a.ply", "b.pcd", "c.las", "d.e57", "e.xyz", "f.E57"}) {
+        paths.push_back((folder / name).string());
+        write_point_cloud(paths.back(), cloud);
+    }
+    std::ofstream poses(folder / "poses.txt");
+    for (std::size_t i = 0; i < paths.size(); ++i)
+        poses << "1 0 0 0 0 1 0 0 0 0 1 0\n";
+    return paths;
+}
+
+TEST(ExportOfLabels, GoesIntoCopiesOfTheUsersFiles) {
+    const TemporaryFolder folder;
+    const std::vector<std::string> paths = write_in_formats(folder.path());
+    const fs::path out = folder / "out";
+    std::vector<std::string> arguments{"interpret"};
+    arguments.insert(arguments.end(), paths.begin(), paths.end());
+    for (const std::string& more :
+         {std::string("--poses"), (folder / "poses.txt").string(), std::string("-o"), out.string()})
+        arguments.push_back(more);
+    ASSERT_EQ(roomscribe(arguments).exit_code, 0);
+    const ProgramResult result = roomscribe({"export", out.string(), "--to", "labelled"});
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    const PointCloud map = read_scan(out / "labels.ply").cloud;
+    const Channel* all = find_channel_of(map, "label");
+    ASSERT_NE(all, nullptr);
+    std::size_t first = 0;
+    for (const std::string& path : paths) {
+        SCOPED_TRACE(path);
+        const PointCloud before = read_scan(path).cloud;
+        const PointCloud after = read_scan(out / "labelled" / fs::path(path).filename()).cloud;
+        ASSERT_EQ(after.size(), before.size());
+        EXPECT_EQ(after.positions, before.positions);
+        for (const Channel& channel : before.channels) {
+            const Channel* kept = find_channel_of(after, channel.name);
+            ASSERT_NE(kept, nullptr) << channel.name;
+            EXPECT_EQ(kept->values, channel.values) << channel.name;
+        }
+        const Channel* label = find_channel_of(after, "roomscribe_label");
+        ASSERT_NE(label, nullptr);
+        EXPECT_NE(find_channel_of(after, "instance"), nullptr);
+        EXPECT_NE(find_channel_of(after, "confidence"), nullptr);
+        if (label->type == ScalarType::uint8) {
+            EXPECT_TRUE(std::equal(label->values.begin(), label->values.end(),
+                                   all->values.begin() + static_cast<std::ptrdiff_t>(first)));
+        }
+        first += before.size();
+    }
+    EXPECT_EQ(first, map.size());
+    std::ofstream(paths.front(), std::ios::app) << '\n';
+    expect_error(roomscribe({"export", out.string(), "--to", "labelled"}), 3,
+                 {"a.ply", "has changed"});
+}
+
 }  // namespace
 }  // namespace roomscribe::test

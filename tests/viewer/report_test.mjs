@@ -29,7 +29,7 @@ try {
     const scans = readdirSync(join(flat, "scans")).sort().map((name) => join(flat, "scans", name));
     run(program, "interpret", ...scans, "--poses", join(flat, "truth/poses.txt"), "-o", out);
     console.log(run(process.execPath, join(here, "check_view.mjs"), program, out));
-    console.log(run(process.execPath, join(here, "check_report.mjs"), out));
+    console.log(run(process.execPath, join(here, "check_report.mjs"), out, join(folder, "pictures"), join(here, "pictures.txt")));
   }
 } catch (error) {
   process.exitCode = error.status ?? 1;

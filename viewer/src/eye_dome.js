@@ -55,16 +55,25 @@ export class EyeDome {
     this.uniforms.pixel.value.set(1 / width, 1 / height);
   }
 
-  /// Draws the scene of points to the canvas; `half` is [from, to] of the width, 0 to 1.
-  render(renderer, scene, camera, half) {
-    const { width, height } = this.target;
-    const scissor = [Math.round(half[0] * width), 0, Math.round((half[1] - half[0]) * width), height];
-    this.target.scissorTest = true;
-    this.target.scissor.set(...scissor);
+  clear(renderer) {
+    this.target.scissorTest = false;
     renderer.setRenderTarget(this.target);
     renderer.clear();
+    renderer.setRenderTarget(null);
+  }
+
+  /// Adds points to what is drawn already; `half` is [from, to] of the width, 0 to 1.
+  add(renderer, scene, camera, half) {
+    const { width, height } = this.target;
+    this.target.scissorTest = true;
+    this.target.scissor.set(Math.round(half[0] * width), 0, Math.round((half[1] - half[0]) * width), height);
+    renderer.setRenderTarget(this.target);
     renderer.render(scene, camera);
     renderer.setRenderTarget(null);
+  }
+
+  /// Brings the points to the canvas, within its scissor.
+  show(renderer, camera) {
     this.uniforms.near.value = camera.near;
     this.uniforms.far.value = camera.far;
     renderer.render(this.scene, this.camera);

@@ -10,6 +10,7 @@ import { ModelMeshes } from "./model_meshes.js";
 import { isInside, NearWalls } from "./near_walls.js";
 import { Navigation } from "./navigation.js";
 import { Overlay } from "./overlay.js";
+import { Pacing } from "./pacing.js";
 import { Picking } from "./picking.js";
 import { colorings, PointCloud } from "./point_cloud.js";
 import { readEmbeddedPoints } from "./point_source.js";
@@ -22,6 +23,9 @@ THREE.ColorManagement.enabled = false;
 
 const ceilingLabel = 2;
 const inputColoring = 7;
+/// Of points that stand for many, while not all are drawn: larger ones hide what the picture is of.
+const largestGrowth = 4;
+const restTime = 120;  // ms without a change after which a picture is finished
 
 /// What the points and the model fill, without what shines in through windows.
 function cornersOf(model) {
@@ -69,14 +73,15 @@ class Viewer {
     this.scene = new THREE.Scene();
     this.scanners = this.#makeScanners();
     this.eyeDome = new EyeDome();
+    this.frames = 0;
+    this.turn = 0;  // of pictures: what belongs to an older one ends
+    this.pacing = new Pacing(this.renderer.getContext());
     this.picking = new Picking(this.renderer, this.cloud, this.meshes);
     this.navigation = new Navigation(this.canvas, corners, () => this.draw());
     this.#buildPage();
     this.measuring = new Measuring(this.overlay, (text) => this.announce(text));
     this.scene.add(this.meshes.group, this.meshes.highlight, this.measuring.group, this.scanners);
     this.#listen();
-    this.frames = 0;
-    this.share = 1;
     this.apply();
     this.navigation.showAll(true);
   }
@@ -190,7 +195,9 @@ class Viewer {
     this.navigation.camera.aspect = width / height;
     this.navigation.camera.updateProjectionMatrix();
     for (const material of [this.meshes.accent, this.measuring.material]) material.resolution.set(width, height);
-    this.draw();
+    // A canvas of a new size is empty: it must not be seen so.
+    this.isAtRest = false;
+    this.#drawNow();
   }
 
   isShown(component) {
@@ -231,7 +238,7 @@ class Viewer {
     this.meshes.update((component) => this.isShown(component), state);
   }
 
-  #pointUniforms(isInput) {
+  #pointUniforms(isInput, share) {
     const { state, model } = this;
     const uniforms = this.cloud.material.uniforms;
     let mask = 1023;
@@ -250,73 +257,109 @@ class Viewer {
     uniforms.selected.value = !isInput && state.selected && state.selected.label !== undefined ? model.components.indexOf(state.selected) + 1 : 0;
     const height = this.renderer.domElement.height;
     uniforms.pixelsPerUnit.value = height / (2 * Math.tan(THREE.MathUtils.degToRad(this.navigation.camera.fov / 2)));
-    uniforms.pointSize.value = 1.35 * state.size * (this.cloud.spacing || 0.01) / Math.sqrt(this.share);
+    uniforms.pointSize.value = 1.35 * state.size * (this.cloud.spacing || 0.01) * Math.min(largestGrowth, 1 / Math.sqrt(share));
     // Streamed points are as far apart on the screen wherever they are.
     uniforms.maxPixels.value = this.stream ? 3.2 * state.size * this.renderer.getPixelRatio() : 0.02 * height + 4;
   }
 
-  #drawHalf(isInput, half) {
+  /// The parts of the picture: [is it the input, [from, to] of the width].
+  #halves() {
+    const { compare, split } = this.state;
+    return compare === "split" ? [[true, [0, split]], [false, [split, 1]]] : [[compare === "input", [0, 1]]];
+  }
+
+  /// Draws points from a share of them to another, as large as befits `share`, beside what is drawn.
+  #addPoints(from, to, share) {
+    this.cloud.setRange(from, to);
+    for (const [isInput, half] of this.#halves()) {
+      if (!this.state.points && !isInput) continue;
+      this.#pointUniforms(isInput, share);
+      this.eyeDome.add(this.renderer, this.pointScene, this.navigation.camera, half);
+    }
+  }
+
+  /// Brings points and model to the canvas.
+  #show() {
     const { renderer, state } = this;
     const { camera } = this.navigation;
     const width = this.canvas.clientWidth, height = this.canvas.clientHeight;
-    renderer.setScissorTest(true);
-    renderer.setScissor(half[0] * width, 0, (half[1] - half[0]) * width, height);
-    if (state.points || isInput) {
-      this.#pointUniforms(isInput);
-      this.eyeDome.render(renderer, this.pointScene, camera, half);
-    }
-    if (!isInput) renderer.render(this.scene, camera);
-    renderer.setScissorTest(false);
-  }
-
-  #drawNow(now) {
-    this.pending = false;
-    const { navigation, renderer, state } = this;
-    const seconds = Math.min(0.1, (now - (this.lastFrame ?? now)) / 1000);
-    const gap = now - (this.lastFrame ?? 0);
-    const wasMoving = this.wasMoving;
-    this.lastFrame = now;
-    navigation.advance(seconds);
-    // Slow graphics: fewer points while things move, all of them once they rest.
-    if (wasMoving && gap < 1000) {
-      if (gap > 60) this.share = Math.max(0.04, this.share * 0.7);
-      else if (gap < 25) this.share = Math.min(1, this.share * 1.2);
-    }
-    this.wasMoving = true;
-    clearTimeout(this.resting);
-    this.isAtRest = false;
-    this.resting = setTimeout(() => {
-      this.wasMoving = false;
-      this.isAtRest = this.drawnShare === 1 && !this.pending;
-      if (this.drawnShare < 1) {
-        this.nextShare = this.share;
-        this.share = 1;
-        this.draw();
-      }
-      this.stream?.update(navigation.camera, this.canvas.height);
-    }, 180);
-    this.#hideNearWalls();
-    this.cloud.setShare(this.share);
-    this.drawnShare = this.share;
     renderer.setRenderTarget(null);
     renderer.clear();
-    if (state.compare === "split") {
-      this.#drawHalf(true, [0, state.split]);
-      this.#drawHalf(false, [state.split, 1]);
-    } else {
-      this.#drawHalf(state.compare === "input", [0, 1]);
+    for (const [isInput, half] of this.#halves()) {
+      renderer.setScissorTest(true);
+      renderer.setScissor(half[0] * width, 0, (half[1] - half[0]) * width, height);
+      if (state.points || isInput) this.eyeDome.show(renderer, camera);
+      if (!isInput) renderer.render(this.scene, camera);
+      renderer.setScissorTest(false);
     }
+  }
+
+  /// One picture: of as many points as the graphics draw in the time of a frame. Where these are not all,
+  /// the finished picture follows once nothing has changed for a while.
+  #drawNow(now = performance.now()) {
+    const { navigation, cloud, pacing } = this;
+    // What moves asks for a picture, and this is it. The shortest press of a key is a step.
+    navigation.advance(this.lastFrame ? Math.min(0.2, (now - this.lastFrame) / 1000) : 0.05);
+    this.pending = false;
+    this.lastFrame = navigation.isMoving ? now : undefined;
+    this.#hideNearWalls();
+    const share = Math.min(1, pacing.pointsOfFrame / Math.max(1, cloud.count));
+    this.eyeDome.clear(this.renderer);
+    this.#addPoints(0, share, share);
+    this.#show();
     this.overlay.update(navigation.camera, this.canvas.clientWidth, this.canvas.clientHeight);
-    if (this.nextShare !== undefined) { this.share = this.nextShare; this.nextShare = undefined; }
+    this.drawnShare = share;
     ++this.frames;
+    ++this.turn;
+    clearTimeout(this.resting);
+    this.#whenDrawn(share * cloud.count, true, () => {
+      this.resting = setTimeout(() => this.#finish(share === 1 ? 1 : 0), restTime);
+    });
     if (navigation.isMoving) this.draw();
   }
 
+  /// Waits for the graphics. What was asked for meanwhile comes first, else `next`.
+  #whenDrawn(points, isFrame, next) {
+    const { turn } = this;
+    this.pacing.follow(points, isFrame, () => {
+      if (turn !== this.turn) return;
+      if (this.pending) this.#request();
+      else next();
+    });
+  }
+
+  /// Draws all points, part by part and unseen, and shows them when `done`, the share that is drawn, is 1.
+  #finish(done) {
+    this.resting = null;
+    if (this.pending) return;
+    if (done === 1) {
+      this.stream?.update(this.navigation.camera, this.canvas.height);
+      this.isAtRest = true;
+      this.finishedAt ??= this.isReady ? performance.now() : undefined;
+      return;
+    }
+    if (done === 0) this.eyeDome.clear(this.renderer);
+    const part = this.pacing.pointsOfPart / Math.max(1, this.cloud.count);
+    const to = Math.min(1, done + part);
+    this.#addPoints(done, to, 1);
+    if (to === 1) {
+      this.#show();
+      this.drawnShare = 1;
+    }
+    this.#whenDrawn((to - done) * this.cloud.count, to === 1, () => this.#finish(to));
+  }
+
+  #request() {
+    requestAnimationFrame((now) => this.#drawNow(now));
+  }
+
+  /// Asks for a new picture; many calls make one.
   draw() {
+    this.isAtRest = false;
     if (this.pending) return;
     this.pending = true;
-    this.isAtRest = false;
-    requestAnimationFrame((now) => this.#drawNow(now));
+    clearTimeout(this.resting);
+    if (!this.pacing.isBusy) this.#request();
   }
 
   find(id) {
@@ -360,8 +403,8 @@ class Viewer {
   pickAt(x, y) {
     const { state } = this;
     const isInput = state.compare === "input" || (state.compare === "split" && x < state.split * this.canvas.clientWidth);
-    this.#pointUniforms(isInput);
-    this.cloud.setShare(1);
+    this.#pointUniforms(isInput, 1);
+    this.cloud.setRange(0, 1);
     const hit = this.picking.pick(this.navigation.camera, x, y, this.canvas.clientWidth, this.canvas.clientHeight, state.points || isInput);
     this.draw();
     return hit;
@@ -409,8 +452,6 @@ class Viewer {
     } else {
       this.cloud.add(await readEmbeddedPoints(element, this.model.points));
     }
-    // A part of them at once, all of them in the next frame but one.
-    this.share = Math.min(1, 400_000 / Math.max(1, this.cloud.count));
     this.message.remove();
     this.draw();
     await new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve)));

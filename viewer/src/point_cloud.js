@@ -164,10 +164,12 @@ export class PointCloud {
     this.count -= mesh.userData.count;
   }
 
-  /// Draws this share of the points, spread over all of them.
-  setShare(share) {
+  /// Draws the points from one share of them to another; any part is spread over all of them.
+  setRange(from, to) {
     for (const mesh of this.group.children) {
-      mesh.geometry.setDrawRange(0, Math.ceil(share * mesh.userData.count));
+      const { count } = mesh.userData;
+      const first = Math.floor(from * count);
+      mesh.geometry.setDrawRange(first, Math.ceil(to * count) - first);
     }
   }
 

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "roomscribe/core/error.hpp"
+#include "roomscribe/export/rounding.hpp"
 
 namespace roomscribe {
 namespace {
@@ -16,13 +17,6 @@ using Json = nlohmann::ordered_json;
 
 constexpr double length_digits = 1e6;
 constexpr double direction_digits = 1e9;
-
-double rounded(double value, double digits) {
-    if (!std::isfinite(value)) {
-        throw InvalidArgument("a number for JSON", std::to_string(value), "a finite number");
-    }
-    return std::round(value * digits) / digits + 0.0;  // -0 becomes 0
-}
 
 double length(double value) {
     return rounded(value, length_digits);
@@ -35,18 +29,10 @@ double significant(double value) {
     return rounded(value, digits);
 }
 
-template <typename Derived>
-Json numbers(const Eigen::MatrixBase<Derived>& vector, double digits) {
-    Json array = Json::array();
-    for (Eigen::Index i = 0; i < vector.size(); ++i)
-        array.push_back(rounded(vector(i), digits));
-    return array;
-}
-
 Json matrix_of(const Transform& transform) {
     Json rows = Json::array();
     for (Eigen::Index row = 0; row < 3; ++row) {
-        Json numbers_of_row = numbers(transform.linear().row(row), direction_digits);
+        std::vector<double> numbers_of_row = rounded(transform.linear().row(row), direction_digits);
         numbers_of_row.push_back(length(transform.translation()(row)));
         rows.push_back(std::move(numbers_of_row));
     }
@@ -57,30 +43,30 @@ Json matrix_of(const Transform& transform) {
 Json polygon_of(const std::vector<Eigen::Vector3d>& corners) {
     Json polygon = Json::array();
     for (const Eigen::Vector3d& corner : corners)
-        polygon.push_back(numbers(corner, length_digits));
+        polygon.push_back(rounded(corner, length_digits));
     return polygon;
 }
 
 Json box_of(const OrientedBox& box) {
     Json axes = Json::array();
     for (const Eigen::Vector3d& axis : box.axes)
-        axes.push_back(numbers(axis, direction_digits));
-    return {{"center", numbers(box.center, length_digits)},
+        axes.push_back(rounded(axis, direction_digits));
+    return {{"center", rounded(box.center, length_digits)},
             {"axes", std::move(axes)},
-            {"size", numbers(box.size, length_digits)}};
+            {"size", rounded(box.size, length_digits)}};
 }
 
 Json grasp_of(const Grasp& grasp) {
-    return {{"position", numbers(grasp.position, length_digits)},
-            {"axis", numbers(grasp.axis, direction_digits)},
-            {"approach", numbers(grasp.approach, direction_digits)},
+    return {{"position", rounded(grasp.position, length_digits)},
+            {"axis", rounded(grasp.axis, direction_digits)},
+            {"approach", rounded(grasp.approach, direction_digits)},
             {"opening", length(grasp.opening)}};
 }
 
 Json motion_of(const OpeningMotion& motion) {
     return {{"kind", motion_kind_name(motion.kind)},
-            {"point", numbers(motion.point, length_digits)},
-            {"direction", numbers(motion.direction, direction_digits)},
+            {"point", rounded(motion.point, length_digits)},
+            {"direction", rounded(motion.direction, direction_digits)},
             {"confidence", length(motion.confidence)}};
 }
 
@@ -162,7 +148,7 @@ Json link_of(const RegistrationLink& link) {
                  {"covariance", covariance_of(link.covariance)}};
     Json unobservable = Json::array();
     for (const auto& twist : link.unobservable) {
-        unobservable.push_back(numbers(twist, direction_digits));
+        unobservable.push_back(rounded(twist, direction_digits));
     }
     json["unobservable"] = std::move(unobservable);
     if (!link.rivals.empty()) json["rival"] = matrix_of(link.rivals.front());

@@ -1,24 +1,21 @@
 // SPDX-License-Identifier: MIT
 #include "roomscribe/export/scene_graph.hpp"
 
-#include <cmath>
-
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "roomscribe/export/json.hpp"
+#include "roomscribe/export/rounding.hpp"
 
 namespace roomscribe {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-double rounded(double value) {
-    return std::round(value * 1e6) / 1e6 + 0.0;
-}
-
-Json numbers(const Eigen::Vector3d& v) {
-    return {rounded(v.x()), rounded(v.y()), rounded(v.z())};
+/// As in scene.json.
+template <typename Value>
+auto in_steps(const Value& value) {
+    return rounded(value, 1e6);
 }
 
 Json node_of(const Component& component) {
@@ -26,26 +23,26 @@ Json node_of(const Component& component) {
     if (!component.kind.empty()) node["kind"] = component.kind;
     if (component.box) {
         const BoxSize size = box_size(*component.box);
-        node["center"] = numbers(component.box->center);
-        node["size"] = {{"width", rounded(size.width)},
-                        {"depth", rounded(size.depth)},
-                        {"height", rounded(size.height)}};
+        node["center"] = in_steps(component.box->center);
+        node["size"] = {{"width", in_steps(size.width)},
+                        {"depth", in_steps(size.depth)},
+                        {"height", in_steps(size.height)}};
     } else if (!component.polygon.empty()) {
         Eigen::Vector3d center = Eigen::Vector3d::Zero();
         for (const Eigen::Vector3d& corner : component.polygon)
             center += corner / static_cast<double>(component.polygon.size());
         const ComponentSize size = flat_size(component);
-        node["center"] = numbers(center);
-        node["size"] = {{"width", rounded(size.width)}, {"height", rounded(size.height)}};
+        node["center"] = in_steps(center);
+        node["size"] = {{"width", in_steps(size.width)}, {"height", in_steps(size.height)}};
     }
     if (component.grasp) {
-        node["grasp"] = {{"position", numbers(component.grasp->position)},
-                         {"axis", numbers(component.grasp->axis)},
-                         {"approach", numbers(component.grasp->approach)},
-                         {"opening", rounded(component.grasp->opening)}};
+        node["grasp"] = {{"position", in_steps(component.grasp->position)},
+                         {"axis", in_steps(component.grasp->axis)},
+                         {"approach", in_steps(component.grasp->approach)},
+                         {"opening", in_steps(component.grasp->opening)}};
     }
     if (component.opens) node["opens"] = motion_kind_name(component.opens->kind);
-    node["confidence"] = rounded(component.confidence);
+    node["confidence"] = in_steps(component.confidence);
     node["verdict"] = verdict_name(component.verdict);
     return node;
 }
@@ -84,18 +81,18 @@ std::string building_to_graph(const Building& building) {
         const BuildingStorey& storey = building.storeys[i];
         nodes.push_back({{"id", storey_id(i)},
                          {"type", "storey"},
-                         {"elevation", rounded(storey.elevation)},
-                         {"height", rounded(storey.height)}});
+                         {"elevation", in_steps(storey.elevation)},
+                         {"height", in_steps(storey.height)}});
         for (const std::size_t room : storey.rooms)
             edges.push_back(edge(storey_id(i), scene.rooms[room].id, "contains"));
     }
     for (const Room& room : scene.rooms) {
         nodes.push_back({{"id", room.id},
                          {"type", "room"},
-                         {"area", rounded(room.area)},
-                         {"volume", rounded(room.volume)},
-                         {"floor_height", rounded(room.floor_height)},
-                         {"ceiling_height", rounded(room.ceiling_height)}});
+                         {"area", in_steps(room.area)},
+                         {"volume", in_steps(room.volume)},
+                         {"floor_height", in_steps(room.floor_height)},
+                         {"ceiling_height", in_steps(room.ceiling_height)}});
         for (const RoomNeighbor& neighbor : room.neighbors) {
             Json leads = edge(room.id, neighbor.room, "leads_to");
             if (!neighbor.through.empty()) leads["through"] = neighbor.through;

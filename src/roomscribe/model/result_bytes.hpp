@@ -5,6 +5,7 @@
 #include "roomscribe/model/byte_archive.hpp"
 #include "roomscribe/model/registration_result.hpp"
 #include "roomscribe/model/scene.hpp"
+#include "roomscribe/model/surface_outlines.hpp"
 
 /// The fields of results, for ByteSink and ByteSource.
 namespace roomscribe {
@@ -75,6 +76,11 @@ void exchange(Archive& archive, Value& scene) {
 template <typename Archive, Either<PointLabels> Value>
 void exchange(Archive& archive, Value& labels) {
     archive(labels.labels, labels.instances, labels.confidences);
+}
+
+template <typename Archive, Either<OutlinedPatch> Value>
+void exchange(Archive& archive, Value& patch) {
+    archive(patch.normal, patch.points, patch.boundary, patch.lines, patch.rectangles);
 }
 
 }  // namespace roomscribe

@@ -25,6 +25,7 @@
 #include "roomscribe/model/result_bytes.hpp"
 #include "roomscribe/preprocessing/saturated_returns.hpp"
 #include "roomscribe/preprocessing/scan_origin.hpp"
+#include "roomscribe/structure/outlined_patches.hpp"
 #include "roomscribe/structure/planar_surfaces.hpp"
 #include "roomscribe/structure/plane_hough.hpp"
 #include "roomscribe/structure/plane_ransac.hpp"
@@ -160,6 +161,8 @@ void interpret_by_default(Reconstruction& reconstruction, const ScanMap& map,
     stages.finish("sample surface", 0.4);
     const std::vector<PlanarPatch> patches = find_planes(map, sample, settings, context);
     stages.finish("planes", 0.7);
+    reconstruction.patches = outline_patches(sample, patches, context);
+    stages.finish("outlines for pictures", 0.72);
     const PrincipalAxes axes = find_axes(map, sample, patches, settings, context);
     stages.finish("principal axes", 0.75);
     const Upright upright =
@@ -310,9 +313,11 @@ ScanRegistration register_or_recall(std::span<const Scan> scans, KnownPoses know
 
 void interpret_or_recall(Reconstruction& map, const std::string& name,
                          const PipelineSettings& settings, const Context& context) {
-    if (recall(context, name, map.scene, map.labels, map.derived_values, map.stage_costs)) return;
+    if (recall(context, name, map.scene, map.labels, map.patches, map.derived_values,
+               map.stage_costs))
+        return;
     interpret_map(map, settings, context);
-    keep(context, name, map.scene, map.labels, map.derived_values, map.stage_costs);
+    keep(context, name, map.scene, map.labels, map.patches, map.derived_values, map.stage_costs);
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include "roomscribe/model/registration_result.hpp"
 #include "roomscribe/model/scan.hpp"
 #include "roomscribe/model/scene.hpp"
+#include "roomscribe/model/surface_outlines.hpp"
 #include "roomscribe/pipeline/pipeline_settings.hpp"
 #include "roomscribe/pipeline/stage_costs.hpp"
 
@@ -23,6 +24,7 @@ struct Reconstruction {
     ScanMap map;
     Scene scene;
     PointLabels labels;
+    std::vector<OutlinedPatch> patches;  ///< what the scene was made of, for pictures
     std::vector<DerivedValue> derived_values;
     std::vector<StageCost> stage_costs;
     std::vector<Reconstruction> apart;

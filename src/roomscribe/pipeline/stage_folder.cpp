@@ -57,7 +57,7 @@ std::uint64_t hash_of_job(const RunRecord& record, std::string_view unit) {
         fmt::format("{} {:x} {} {}\n", record.version, hash_of_program(), record.command, unit);
     for (const SettingEntry& setting : record.settings)
         text += fmt::format("{}={}\n", setting.name, setting.value);
-    for (const InputFile& input : record.inputs) {
+    for (const FileRecord& input : record.inputs) {
         // The name is part of results, the folder is not.
         text += fmt::format("{:x} {} {}\n", input.xxh64, input.size,
                             std::filesystem::path(input.path).filename().string());

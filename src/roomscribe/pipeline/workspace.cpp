@@ -57,6 +57,17 @@ Json nested_settings(std::span<const SettingEntry> settings) {
     return nested;
 }
 
+Json files_json(std::span<const FileRecord> files) {
+    Json json = Json::array();
+    for (const FileRecord& file : files) {
+        json.push_back({{"path", file.path},
+                        {"role", file_role_name(file.role)},
+                        {"size", file.size},
+                        {"xxh64", fmt::format("{:016x}", file.xxh64)}});
+    }
+    return json;
+}
+
 [[noreturn]] void refuse_folder(const std::filesystem::path& folder, std::string_view reason) {
     throw IoError(folder.string(), "output folder", {}, reason,
                   "choose a folder that you may write to");
@@ -64,14 +75,39 @@ Json nested_settings(std::span<const SettingEntry> settings) {
 
 }  // namespace
 
-InputFile describe_input(const std::filesystem::path& path) {
+std::string_view file_role_name(FileRole role) {
+    switch (role) {
+        case FileRole::scan:
+            return "scan";
+        case FileRole::poses:
+            return "poses";
+        case FileRole::corrections:
+            return "corrections";
+        case FileRole::result:
+            break;
+    }
+    return "result";
+}
+
+FileRecord describe_input(const std::filesystem::path& path, FileRole role) {
     std::error_code error;
     const std::filesystem::path file = index_of_scans(path);
     const std::uintmax_t size = std::filesystem::file_size(file, error);
     if (error) {
         throw IoError(path.string(), "", {}, error.message(), "check the path and its permissions");
     }
-    return {path.string(), size, hash_file(file)};
+    return {path.string(), size, hash_file(file), role};
+}
+
+std::vector<FileRecord> describe_results(const std::filesystem::path& folder) {
+    std::vector<FileRecord> results;
+    for (const char* name :
+         {"poses.txt", "registration.json", "map.ply", "labels.ply", "scene.json"}) {
+        if (!std::filesystem::exists(folder / name)) continue;
+        results.push_back(describe_input(folder / name, FileRole::result));
+        results.back().path = name;
+    }
+    return results;
 }
 
 void prepare_output_folder(const std::filesystem::path& folder) {
@@ -90,8 +126,18 @@ std::string folder_of_apart(std::size_t i) {
 
 void remove_apart_from(const std::filesystem::path& folder, std::size_t count) {
     // Whatever else has such a name is not ours.
-    for (std::size_t i = count; exists(folder / folder_of_apart(i) / "run.json"); ++i)
-        remove_all(folder / folder_of_apart(i));
+    for (std::size_t i = count; exists(folder / folder_of_apart(i) / "run.json"); ++i) {
+        const std::filesystem::path own = folder / folder_of_apart(i);
+        if (!exists(own / "corrections.json")) {
+            remove_all(own);
+            continue;
+        }
+        std::vector<std::filesystem::path> ours;
+        for (const auto& entry : std::filesystem::directory_iterator(own))
+            if (entry.path().filename() != "corrections.json") ours.push_back(entry.path());
+        for (const std::filesystem::path& path : ours)
+            remove_all(path);
+    }
 }
 
 void write_registration(const std::filesystem::path& folder, const Reconstruction& reconstruction,
@@ -132,12 +178,8 @@ std::string run_to_json(const RunRecord& record, const Reconstruction& reconstru
     json["program_version"] = record.version;
     json["command"] = record.command;
     json["threads"] = record.num_threads;
-    json["inputs"] = Json::array();
-    for (const InputFile& input : record.inputs) {
-        json["inputs"].push_back({{"path", input.path},
-                                  {"size", input.size},
-                                  {"xxh64", fmt::format("{:016x}", input.xxh64)}});
-    }
+    json["inputs"] = files_json(record.inputs);
+    json["results"] = files_json(record.results);
     json["settings"] = nested_settings(record.settings);
     json["derived_values"] = Json::array();
     for (const DerivedValue& derived : reconstruction.derived_values) {

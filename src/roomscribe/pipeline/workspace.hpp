@@ -14,11 +14,14 @@
 
 namespace roomscribe {
 
-/// A file that went into a run.
-struct InputFile {
-    std::string path;
+enum class FileRole : std::uint8_t { scan, poses, corrections, result };
+
+/// A file that went into a run or came out of it.
+struct FileRecord {
+    std::string path;         ///< of a result its name in the output folder
     std::uint64_t size = 0;   ///< bytes
     std::uint64_t xxh64 = 0;  ///< hash_file
+    FileRole role = FileRole::scan;
 };
 
 /// What is to be known of a run beside its results.
@@ -26,12 +29,19 @@ struct RunRecord {
     std::string version;                 ///< of the program
     std::string command;                 ///< "run", "register", "interpret"
     std::vector<SettingEntry> settings;  ///< list_settings(PipelineSettings)
-    std::vector<InputFile> inputs;       ///< in input order
+    std::vector<FileRecord> inputs;      ///< in input order
+    std::vector<FileRecord> results;     ///< describe_results
     int num_threads = 0;                 ///< that the run used
 };
 
+/// "scan", "poses", "corrections", "result".
+std::string_view file_role_name(FileRole role);
+
 /// Size and hash of a file. Throws IoError if it cannot be read.
-InputFile describe_input(const std::filesystem::path& path);
+FileRecord describe_input(const std::filesystem::path& path, FileRole role = FileRole::scan);
+
+/// The files that write_registration and write_interpretation have left in the folder.
+std::vector<FileRecord> describe_results(const std::filesystem::path& folder);
 
 /// Makes the folder, with its parents, and tries whether a file can be written in it: called before
 /// the work starts, so that a long run does not end without a place for its result. Half-written
@@ -42,7 +52,8 @@ void prepare_output_folder(const std::filesystem::path& folder);
 /// first, for the map itself is set 1.
 std::string folder_of_apart(std::size_t i);
 
-/// Removes the folders of maps apart that an earlier run left in `folder`, from the `count`-th on.
+/// Removes the folders of maps apart that an earlier run left in `folder`, from the `count`-th on;
+/// of one with a corrections.json that file stays, for it is the user's.
 void remove_apart_from(const std::filesystem::path& folder, std::size_t count);
 
 // Each of the following writes into an existing folder the files of docs/formats.md, every one

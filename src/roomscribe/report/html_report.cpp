@@ -16,6 +16,7 @@
 #include "roomscribe/report/report_style.hpp"
 #include "roomscribe/report/report_tables.hpp"
 #include "roomscribe/report/report_views.hpp"
+#include "roomscribe/report/stage_figures.hpp"
 #include "roomscribe/report/viewer_bundle.hpp"
 #include "roomscribe/report/viewer_model.hpp"
 #include "roomscribe/report/viewer_points.hpp"
@@ -264,6 +265,7 @@ std::string render_html_report(const Reconstruction& reconstruction, const Repor
     html += section("Drawings", floor_plan_drawing(reconstruction.scene));
     html += section("Elevations", wall_elevations(reconstruction.scene));
     html += section("Furniture", furniture_figures(reconstruction, context));
+    html += section("Stages", stage_figures(reconstruction, context));
     html += section("Rooms", rooms_table(reconstruction));
     html += section("Components", components_table(reconstruction));
     html += section("Registration", links_table(reconstruction) + poses_table(reconstruction));
@@ -271,7 +273,9 @@ std::string render_html_report(const Reconstruction& reconstruction, const Repor
     html += section("Derived values", derived_values_table(reconstruction));
     html += section("Settings", settings_part(run));
     html += section("Cost", stages_table(reconstruction));
-    html += section("Input files", inputs_table(run));
+    std::vector<FileRecord> files = run.inputs;
+    files.insert(files.end(), run.results.begin(), run.results.end());
+    html += section("Files", files_table(files));
     html +=
         fmt::format("</main>\n<footer>roomscribe {}{}</footer>\n<script>{}</script>\n",
                     escape_html(run.version),

@@ -21,7 +21,7 @@ struct ReportInfo {
     std::size_t picture_width = 1400;        ///< pixels
     /// Points in the 3D view: what a graphics card of a plain laptop turns smoothly, in a file that
     /// still can be mailed. 0 leaves the view out.
-    std::size_t viewer_points = 1'500'000;
+    std::size_t viewer_points = 2'000'000;
 };
 
 /// One HTML file that opens without a network: summary, 3D view (where the program was built with

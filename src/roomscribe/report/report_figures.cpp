@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include "roomscribe/core/parallel.hpp"
 #include "roomscribe/geometry/polygon.hpp"
 #include "roomscribe/report/cloud_picture.hpp"
 #include "roomscribe/report/html_text.hpp"
@@ -262,8 +263,8 @@ Eigen::Vector3d front_of(std::span<const Component> parts, const Eigen::Vector3d
 constexpr double piece_margin = 0.12;
 
 /// From before the piece; coordinates are metres from its lower left corner.
-RoomView piece_view(const OrientedBox& box, const Eigen::Vector3d& front, const Eigen::Vector3d& up,
-                    std::size_t width) {
+RoomView piece_view(const OrientedBox& box, const Eigen::Vector3d& front,
+                    const Eigen::Vector3d& up) {
     RoomView view;
     view.horizontal = {0, 1.0};
     view.vertical = {2, 1.0};
@@ -279,7 +280,12 @@ RoomView piece_view(const OrientedBox& box, const Eigen::Vector3d& front, const 
     view.view.view_from_cloud.translation() = half - axes * box.center;
     view.view.low = Eigen::Vector3d::Constant(-piece_margin);
     view.view.high = 2.0 * half + Eigen::Vector3d::Constant(piece_margin);
-    view.view.width = width;
+    // The longer side of a picture; pages show it at half the size, so that dense screens are
+    // sharp.
+    constexpr double longer_side = 720.0;  // pixels
+    const Eigen::Vector3d extent = view.view.high - view.view.low;
+    view.view.width = static_cast<std::size_t>(
+        std::max(1.0, longer_side * std::min(1.0, extent.x() / extent.y())));
     return view;
 }
 
@@ -287,19 +293,50 @@ RoomView piece_view(const OrientedBox& box, const Eigen::Vector3d& front, const 
 struct PiecePicture {
     Scene alone;  ///< the piece, then its parts
     RoomView view;
-    std::vector<Eigen::Vector3f> points;  ///< in the view's box
-    std::vector<std::size_t> numbers;     ///< of these in the map
+    std::vector<Eigen::Vector3f> points;  ///< in the view's box and about it
+    std::vector<std::uint32_t> numbers;   ///< of these in the map
 };
 
+/// The box of a view in the map's frame.
+Eigen::AlignedBox3f box_in_map(const CloudView& view) {
+    const Transform map_from_view = view.view_from_cloud.inverse();
+    const Eigen::AlignedBox3d seen(view.low, view.high);
+    Eigen::AlignedBox3f box;
+    for (int i = 0; i < 8; ++i) {
+        const auto corner = static_cast<Eigen::AlignedBox3d::CornerType>(i);
+        box.extend(Eigen::Vector3d(map_from_view * seen.corner(corner)).cast<float>());
+    }
+    return box;
+}
+
 /// Deals the map's points out to the pictures that show them.
-void take_points(const PointCloud& map, std::span<PiecePicture> pictures) {
-    for (std::size_t i = 0; i < map.size(); ++i) {
-        for (PiecePicture& picture : pictures) {
-            const CloudView& view = picture.view.view;
-            const Eigen::Array3d place = view.view_from_cloud * map.positions[i].cast<double>();
-            if (!(place >= view.low.array()).all() || !(place <= view.high.array()).all()) continue;
-            picture.points.push_back(map.positions[i]);
-            picture.numbers.push_back(i);
+void take_points(const PointCloud& map, std::span<PiecePicture> pictures, const Context& context) {
+    std::vector<Eigen::AlignedBox3f> boxes;
+    Eigen::AlignedBox3f all;
+    for (const PiecePicture& picture : pictures) {
+        boxes.push_back(box_in_map(picture.view.view));
+        all.extend(boxes.back());
+    }
+    using Numbers = std::vector<std::vector<std::uint32_t>>;  // per picture
+    constexpr std::size_t chunk_size = 1U << 18U;
+    std::vector<Numbers> numbers_of_chunk((map.size() + chunk_size - 1) / chunk_size);
+    parallel_for(context, map.size(), chunk_size, [&](std::size_t begin, std::size_t end) {
+        Numbers& numbers = numbers_of_chunk[begin / chunk_size];
+        numbers.resize(pictures.size());
+        for (std::size_t i = begin; i < end; ++i) {
+            if (!all.contains(map.positions[i])) continue;
+            for (std::size_t k = 0; k < pictures.size(); ++k) {
+                if (boxes[k].contains(map.positions[i]))
+                    numbers[k].push_back(static_cast<std::uint32_t>(i));
+            }
+        }
+    });
+    for (const Numbers& numbers : numbers_of_chunk) {
+        for (std::size_t k = 0; k < numbers.size(); ++k) {
+            for (const std::uint32_t number : numbers[k]) {
+                pictures[k].points.push_back(map.positions[number]);
+                pictures[k].numbers.push_back(number);
+            }
         }
     }
 }
@@ -391,7 +428,6 @@ std::string scans_figure(const Reconstruction& reconstruction, std::size_t width
 
 std::string furniture_figures(const Reconstruction& reconstruction, const Context& context) {
     constexpr std::size_t max_pieces = 12;
-    constexpr std::size_t picture_width = 720;
     constexpr double min_extent = 2.0 * piece_margin + 0.2;  // m, of what is worth a picture
     const Scene& scene = reconstruction.scene;
     const Eigen::Vector3d up = scene.room_from_map.linear().row(2).transpose();
@@ -410,11 +446,11 @@ std::string furniture_figures(const Reconstruction& reconstruction, const Contex
         picture.alone.components = piece_with_parts(scene, *piece);
         const Eigen::Vector3d front = front_of(picture.alone.components, up);
         if (front.isZero()) continue;
-        picture.view = piece_view(*piece->box, front, up, picture_width);
+        picture.view = piece_view(*piece->box, front, up);
         const Eigen::Vector3d extent = picture.view.view.high - picture.view.view.low;
         if (extent.head<2>().minCoeff() >= min_extent) pictures.push_back(std::move(picture));
     }
-    take_points(reconstruction.map.cloud, pictures);
+    take_points(reconstruction.map.cloud, pictures, context);
     std::string html;
     for (const PiecePicture& picture : pictures)
         html += piece_figure(picture, reconstruction.labels.labels, context);

@@ -56,6 +56,11 @@ figcaption span { color: var(--soft); }
 .pieces figure { margin-bottom: 2rem; }
 .pieces .scale { display: none; }
 .pieces .plot { max-width: max(11rem, calc(var(--aspect) * 22rem)); }
+.stages { display: grid; grid-template-columns: repeat(auto-fill, minmax(min(24rem, 100%), 1fr));
+  gap: 0 2rem; }
+.stages figure { margin-bottom: 2rem; }
+.faint img { opacity: .3; }
+.stage-line { fill: none; stroke-width: 1.5; }
 .drawing { display: block; max-width: 100%; height: auto; background: #fff; border-radius: .3rem; }
 .elevations { display: flex; flex-wrap: wrap; gap: 0 2rem; align-items: flex-end; }
 .elevations figure { margin: 0 0 2rem; max-width: 100%; }
@@ -143,6 +148,8 @@ footer { margin-top: 4.5rem; padding-top: 1.25rem; border-top: 1px solid var(--l
   .frame { margin-left: 1.7rem; }
   .tick { font-size: .65rem; }
   .legend { margin-left: 0; gap: .3rem 1rem; }
+  .elevations figure { overflow-x: auto; }
+  .elevation { max-width: none; }
   .tag { font-size: .68rem; padding: 0 .35rem; }
   .station { width: 1.15rem; height: 1.15rem; font-size: .6rem; line-height: .9rem; }
 }
@@ -154,13 +161,23 @@ footer { margin-top: 4.5rem; padding-top: 1.25rem; border-top: 1px solid var(--l
   }
   @page { margin: 16mm 14mm; }
   body { padding: 0; max-width: none; font-size: 10pt; }
-  h2 { margin-top: 2.5rem; break-after: avoid; }
+  h2 { margin-top: 2rem; break-after: avoid; }
+  figcaption, caption { break-after: avoid; }
   #viewer, figure, tr, .checks, .figures { break-inside: avoid; }
-  .scroll { overflow: visible; }
-  .plot { max-width: calc(var(--aspect) * 32rem); }
-  table { font-size: 8pt; }
-  th, td { padding-right: .6rem; }
-  .wide { min-width: 0; }
+  .figures { margin-top: 1.5rem; gap: 1rem; }
+  .figures dd { font-size: 1.25rem; }
+  figure { margin-bottom: 1.5rem; }
+  .scroll { overflow: visible; margin-bottom: 1.5rem; }
+  .plot { max-width: calc(var(--aspect) * 23rem); }
+  .stages { grid-template-columns: 1fr 1fr; gap: 0 1rem; }
+  .drawing { max-height: 21cm; width: auto; }
+  .elevations figure { margin-bottom: 1rem; }
+  table { font-size: 7.5pt; }
+  th, td { padding: .3rem .45rem .3rem 0; }
+  thead th { font-size: 7pt; }
+  thead button::after { content: none; }
+  .wide { min-width: 11rem; }
+  code { overflow-wrap: anywhere; }
   * { print-color-adjust: exact; -webkit-print-color-adjust: exact; }
 }
 )css";

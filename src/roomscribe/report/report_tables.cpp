@@ -318,14 +318,15 @@ std::string scores_tables(const EvaluationSummary& score) {
     return html;
 }
 
-std::string inputs_table(const RunRecord& run) {
+std::string files_table(std::span<const FileRecord> files) {
     HtmlTable table("xxh64sum gives the same hashes.",
-                    {{"File", false}, {"Size (MB)", true}, {"XXH64", false}});
-    for (const InputFile& input : run.inputs) {
+                    {{"File", false}, {"Holds", false}, {"Size (MB)", true}, {"XXH64", false}});
+    for (const FileRecord& file : files) {
         table.begin_row();
-        table.html(fmt::format("<span class=\"break\">{}</span>", escape_html(input.path)));
-        table.number(static_cast<double>(input.size) / 1e6, 2);
-        table.html(fmt::format("<code>{:016x}</code>", input.xxh64));
+        table.html(fmt::format("<span class=\"break\">{}</span>", escape_html(file.path)));
+        table.text(file_role_name(file.role));
+        table.number(static_cast<double>(file.size) / 1e6, 2);
+        table.html(fmt::format("<code>{:016x}</code>", file.xxh64));
     }
     return table.finish();
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <span>
 #include <string>
 
 #include "roomscribe/evaluation/evaluation_summary.hpp"
@@ -31,6 +32,7 @@ std::string stages_table(const Reconstruction& reconstruction);
 /// One table per group of scores: how the result compares with known truth.
 std::string scores_tables(const EvaluationSummary& score);
 
-std::string inputs_table(const RunRecord& run);
+/// Files that went in or came out, with sizes and hashes.
+std::string files_table(std::span<const FileRecord> files);
 
 }  // namespace roomscribe

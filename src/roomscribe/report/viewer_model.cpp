@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "roomscribe/export/building.hpp"
+#include "roomscribe/export/rounding.hpp"
 #include "roomscribe/export/wall_openings.hpp"
 #include "roomscribe/geometry/polygon.hpp"
 #include "roomscribe/model/label.hpp"
@@ -18,13 +19,13 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 /// A tenth of a millimetre is finer than any scanner.
-double rounded(double value) {
-    const double in_steps = std::round(value * 1e4) / 1e4;
-    return in_steps == 0.0 ? 0.0 : in_steps;
+template <typename Value>
+auto in_steps(const Value& value) {
+    return rounded(value, 1e4);
 }
 
 Json to_json(const Eigen::Vector3d& v) {
-    return Json::array({rounded(v.x()), rounded(v.y()), rounded(v.z())});
+    return in_steps(v);
 }
 
 Json to_json(const std::vector<Eigen::Vector3d>& corners) {
@@ -55,10 +56,10 @@ Json labels_json(const Reconstruction& reconstruction) {
 Json sizes_of(const Component& component) {
     if (component.box) {
         const BoxSize size = box_size(*component.box);
-        return Json::array({rounded(size.width), rounded(size.depth), rounded(size.height)});
+        return Json::array({in_steps(size.width), in_steps(size.depth), in_steps(size.height)});
     }
     const ComponentSize size = flat_size(component);
-    return Json::array({rounded(size.width), rounded(size.height)});
+    return Json::array({in_steps(size.width), in_steps(size.height)});
 }
 
 Json evidence_json(const Evidence& evidence) {
@@ -100,7 +101,7 @@ Json component_json(const Building& building, std::size_t index) {
         json["grasp"] = {{"position", to_json(component.grasp->position)},
                          {"axis", to_json(component.grasp->axis)},
                          {"approach", to_json(component.grasp->approach)},
-                         {"opening", rounded(component.grasp->opening)}};
+                         {"opening", in_steps(component.grasp->opening)}};
     }
     if (component.opens) {
         json["opens"] = {{"motion", motion_kind_name(component.opens->kind)},

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <span>
 #include <unordered_map>
 
 #include <zlib.h>
@@ -54,10 +55,41 @@ struct CodedPoint {
 
 constexpr std::uint64_t outside = ~std::uint64_t{0};
 
+constexpr unsigned bucket_shift = 3 * grid_levels - 12;
+
+/// Sorts points that agree in the twelve upper bits of their codes, and keeps the order of equal
+/// ones: digit by digit from the lowest, as codes are short numbers and points many.
+void sort_bucket(std::span<CodedPoint> points) {
+    constexpr std::size_t few = 256;  // for which counting digits does not pay
+    if (points.size() < few) {
+        std::stable_sort(points.begin(), points.end(),
+                         [](const CodedPoint& a, const CodedPoint& b) { return a.code < b.code; });
+        return;
+    }
+    constexpr unsigned digit_bits = 9;
+    constexpr std::size_t num_digits = 1U << digit_bits;
+    std::vector<CodedPoint> other(points.size());
+    std::span<CodedPoint> from = points;
+    std::span<CodedPoint> to = other;
+    for (unsigned shift = 0; shift < bucket_shift; shift += digit_bits) {
+        const auto digit = [shift](const CodedPoint& point) {
+            return (point.code >> shift) & (num_digits - 1);
+        };
+        std::array<std::size_t, num_digits + 1> next{};
+        for (const CodedPoint& point : from)
+            ++next[digit(point) + 1];
+        for (std::size_t i = 1; i <= num_digits; ++i)
+            next[i] += next[i - 1];
+        for (const CodedPoint& point : from)
+            to[next[digit(point)]++] = point;
+        std::swap(from, to);
+    }
+    static_assert(bucket_shift % (2 * digit_bits) == 0, "the sorted points end where they began");
+}
+
 /// Sorts by code, then number: shared out by the twelve upper bits of the codes.
 std::vector<CodedPoint> sorted_points(const std::vector<std::uint64_t>& codes,
                                       const Context& context) {
-    constexpr unsigned bucket_shift = 3 * grid_levels - 12;
     constexpr std::size_t num_buckets = 1U << 12U;
     std::vector<std::size_t> ends(num_buckets + 1, 0);
     for (const std::uint64_t code : codes)
@@ -71,11 +103,7 @@ std::vector<CodedPoint> sorted_points(const std::vector<std::uint64_t>& codes,
         points[next[codes[i] >> bucket_shift]++] = {codes[i], static_cast<std::uint32_t>(i)};
     }
     parallel_for(context, num_buckets, 1, [&](std::size_t begin, std::size_t end) {
-        const auto first = points.begin() + static_cast<std::ptrdiff_t>(ends[begin]);
-        const auto last = points.begin() + static_cast<std::ptrdiff_t>(ends[end]);
-        std::sort(first, last, [](const CodedPoint& a, const CodedPoint& b) {
-            return a.code != b.code ? a.code < b.code : a.number < b.number;
-        });
+        sort_bucket(std::span(points).subspan(ends[begin], ends[end] - ends[begin]));
     });
     return points;
 }
@@ -101,7 +129,10 @@ std::uint8_t level_for(const GriddedPoints& points, std::size_t budget) {
 /// Planes of bytes, one after another.
 class PlaneWriter {
   public:
-    explicit PlaneWriter(std::size_t num_points) : num_points_(num_points) {}
+    /// `max_planes` that will be added.
+    PlaneWriter(std::size_t num_points, std::size_t max_planes) : num_points_(num_points) {
+        bytes_.reserve(num_points * max_planes);
+    }
 
     template <typename ByteOf>
     void add(const ByteOf& byte_of) {
@@ -194,8 +225,9 @@ GriddedPoints grid_points(const Reconstruction& reconstruction, const Eigen::Ali
                 const Eigen::Vector3d steps = (in_room - points.low) / points.step;
                 std::array<std::uint16_t, 3> place{};
                 for (std::size_t axis = 0; axis < 3; ++axis) {
-                    place[axis] = static_cast<std::uint16_t>(
-                        std::lround(std::min(steps(static_cast<Eigen::Index>(axis)), 65535.0)));
+                    // None is below 0: this rounds to the nearest.
+                    const double in_grid = steps(static_cast<Eigen::Index>(axis)) + 0.5;
+                    place[axis] = static_cast<std::uint16_t>(std::min(in_grid, 65535.0));
                 }
                 codes[i] = morton_code(place);
             }
@@ -289,7 +321,8 @@ std::string pack_points(const Reconstruction& reconstruction, const GriddedPoint
     const PointCloud& cloud = reconstruction.map.cloud;
     const PointLabels& labels = reconstruction.labels;
     const auto number = [&](std::size_t i) { return points.numbers[chosen[i]]; };
-    PlaneWriter planes(chosen.size());
+    constexpr std::size_t max_planes = 16;
+    PlaneWriter planes(chosen.size(), max_planes);
     for (std::size_t axis = 0; axis < 3; ++axis) {
         const auto step_of = [&](std::size_t i) {
             const int before = i == 0 ? 0 : points.places[chosen[i - 1]][axis];

@@ -141,6 +141,10 @@ TEST(RemoveApartFrom, TakesAwayWhatAnEarlierRunLeftAndNothingElse) {
     remove_apart_from(folder.path(), 1);
     EXPECT_EQ(folder_of_apart(0), "set-2");
     EXPECT_THAT(names_in(folder.path()), UnorderedElementsAre("set-2", "set-4"));
+    // Corrections are the user's.
+    std::ofstream(folder / "set-2/corrections.json") << "{}";
+    remove_apart_from(folder.path(), 0);
+    EXPECT_THAT(names_in(folder / "set-2"), UnorderedElementsAre("corrections.json"));
 }
 
 TEST(WriteRegistration, NeedsAPoseSlotPerScan) {
@@ -243,6 +247,7 @@ TEST(RunToJson, NestsSettingsAndKeepsTheirTypes) {
                        {"icp.kernel.kind", "", "", "huber", "", true},
                        {"icp.robust", "", "", "true", "", false}};
     record.inputs = {{"scans/\"a\".ply", 300, 0x1FULL}};
+    record.results = {{"scene.json", 7, 2, FileRole::result}};
     Reconstruction result;
     result.stage_costs = {{"read", 0.5, 1024}};
     result.derived_values = {{"voxel_size", 0.02, "m", "spacing"}};
@@ -255,8 +260,17 @@ TEST(RunToJson, NestsSettingsAndKeepsTheirTypes) {
   "inputs": [
     {
       "path": "scans/\"a\".ply",
+      "role": "scan",
       "size": 300,
       "xxh64": "000000000000001f"
+    }
+  ],
+  "results": [
+    {
+      "path": "scene.json",
+      "role": "result",
+      "size": 7,
+      "xxh64": "0000000000000002"
     }
   ],
   "settings": {
@@ -304,11 +318,25 @@ TEST(DescribeInput, HashesAFileAsItsBytes) {
     for (std::size_t i = 0; i < bytes.size(); ++i)
         bytes[i] = static_cast<char>(i * i % 251);
     std::ofstream(folder / "scan.bin", std::ios::binary) << bytes;
-    const InputFile input = describe_input(folder / "scan.bin");
+    const FileRecord input = describe_input(folder / "scan.bin");
     EXPECT_EQ(input.size, bytes.size());
     EXPECT_EQ(input.xxh64, hash_bytes(std::as_bytes(std::span(bytes))));
     EXPECT_THROW(describe_input(folder / "absent"), IoError);
     EXPECT_THROW(describe_input(folder.path()), IoError);
+}
+
+TEST(DescribeResults, ListsTheFilesThatAreThere) {
+    const TemporaryFolder folder;
+    EXPECT_TRUE(describe_results(folder.path()).empty());
+    Reconstruction result = registered(two_scans());
+    label_all(result);
+    write_interpretation(folder.path(), result);
+    const std::vector<FileRecord> files = describe_results(folder.path());
+    ASSERT_EQ(files.size(), 2U);
+    EXPECT_EQ(files[0].path, "labels.ply");
+    EXPECT_EQ(files[1].path, "scene.json");
+    EXPECT_EQ(files[1].xxh64, hash_file(folder / "scene.json"));
+    EXPECT_EQ(files[1].role, FileRole::result);
 }
 
 }  // namespace
