@@ -176,11 +176,14 @@ double PoseSupport::evidence() const {
     const auto contradicted_share = [](std::size_t contradicted, std::size_t confirmed_pieces) {
         return share(static_cast<double>(contradicted), contradicted + confirmed_pieces);
     };
-    // Rooms do not move: as good as nothing of the shell may be contradicted by moving people.
+    // Rooms do not move: where people do, as good as nothing of the shell is contradicted, of so
+    // much shell that one per cent would show.
     constexpr double max_shell_contradiction = 0.01;
+    constexpr std::size_t enough_shell = 200;
+    const bool shell_agrees = shell_confirmed >= enough_shell &&
+                              shell.pieces.contradicted_share() <= max_shell_contradiction;
     const std::size_t detail_contradicted =
-        shell.pieces.contradicted_share() <= max_shell_contradiction ? detail.contradictions
-                                                                     : detail.pieces.contradicted;
+        shell_agrees ? detail.contradictions : detail.pieces.contradicted;
     // A corridor turned about fits all its shell: its details are not to be outvoted.
     const double contradicted =
         std::max(contradicted_share(detail_contradicted, detail_confirmed),
