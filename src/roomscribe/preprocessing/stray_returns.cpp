@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 
 #include "roomscribe/core/parallel.hpp"
 #include "roomscribe/core/quantile.hpp"
@@ -45,20 +46,34 @@ std::vector<double> measure_gaps(std::span<const Eigen::Vector3f> points, const 
     return gaps;
 }
 
-bool is_beside_none(double gap, double range, double max_gap_here) {
-    return gap > max_gap_here || gap * range > max_distance;
+/// How far apart returns lie: half of them are nearer to those beside them.
+struct Spacing {
+    double angle = 0.0;     ///< of rays, rad
+    double distance = 0.0;  ///< m
+
+    /// Farther off than so many spacings. By both measures: in a cloud of several scans the rays do
+    /// not begin at one place, and those that are near it only seem far apart.
+    bool is_exceeded(double gap, double range, double factor) const {
+        return gap > factor * angle && gap * range > factor * distance;
+    }
+};
+
+Spacing measure_spacing(const std::vector<Eigen::Vector3f>& points, std::vector<double> gaps,
+                        const Eigen::Vector3d& sensor) {
+    std::vector<double> distances(gaps.size());
+    for (std::size_t i = 0; i < gaps.size(); ++i)
+        distances[i] = gaps[i] * range_of(points[i], sensor);
+    return {median(gaps), median(distances)};
 }
 
-double share_beyond(const std::vector<double>& gaps, double limit) {
-    const auto count =
-        std::count_if(gaps.begin(), gaps.end(), [limit](double gap) { return gap > limit; });
-    return static_cast<double>(count) / static_cast<double>(gaps.size());
+bool is_stray(double gap, double range, double factor, const Spacing& spacing) {
+    return spacing.is_exceeded(gap, range, factor) || gap * range > max_distance;
 }
 
 /// Some returns that lie on surfaces.
 struct SurfaceSample {
     std::vector<Eigen::Vector3f> points;
-    double spacing = 0.0;  ///< of rays, in rad: half of the gaps are smaller
+    Spacing spacing;
 };
 
 /// Leaves the strays out; empty if they are so few that they do no harm.
@@ -67,19 +82,23 @@ SurfaceSample without_strays(std::vector<Eigen::Vector3f> points, const Eigen::V
     // Of scans by all scanners, real and simulated, that have none, at most 0.5 per cent lie so far
     // off: what is seen through leaves, and rims.
     constexpr double lonely = 5.0;
-    constexpr double min_share = 0.015;
+    constexpr double min_share = 0.01;
     // Strays among strays pass until the others are gone.
     constexpr int num_passes = 5;
     SurfaceSample sample;
     for (int pass = 0; pass < num_passes && points.size() > num_beside; ++pass) {
         const std::vector<double> gaps = measure_gaps(points, SearchTree(points), sensor, context);
-        std::vector<double> sorted = gaps;
-        sample.spacing = median(sorted);
-        if (pass == 0 && share_beyond(gaps, lonely * sample.spacing) < min_share) return {};
+        sample.spacing = measure_spacing(points, gaps, sensor);
+        std::size_t num_lonely = 0;
         std::vector<Eigen::Vector3f> kept;
         for (std::size_t i = 0; i < points.size(); ++i) {
-            if (!is_beside_none(gaps[i], range_of(points[i], sensor), max_gap * sample.spacing))
-                kept.push_back(points[i]);
+            const double range = range_of(points[i], sensor);
+            if (sample.spacing.is_exceeded(gaps[i], range, lonely)) ++num_lonely;
+            if (!is_stray(gaps[i], range, max_gap, sample.spacing)) kept.push_back(points[i]);
+        }
+        if (pass == 0 &&
+            static_cast<double>(num_lonely) < min_share * static_cast<double>(points.size())) {
+            return {};
         }
         points = std::move(kept);
     }
@@ -110,7 +129,7 @@ std::vector<std::uint32_t> find_stray_returns(std::span<const Eigen::Vector3f> p
     std::vector<std::uint32_t> strays;
     for (std::uint32_t i = 0; i < positions.size(); ++i) {
         if (is_finite(positions[i]) &&
-            is_beside_none(gaps[i], range_of(positions[i], sensor), reach * sample.spacing)) {
+            is_stray(gaps[i], range_of(positions[i], sensor), reach, sample.spacing)) {
             strays.push_back(i);
         }
     }
