@@ -18,7 +18,9 @@ constexpr std::string_view cure = "the file is damaged: copy or export it again"
 constexpr std::string_view laz_cure =
     "open it with 'laszip -i FILE.laz -o FILE.las' or 'pdal translate FILE.laz FILE.las'";
 /// Records of so many points stay in the cache while one field after another is taken from them.
-constexpr std::size_t points_per_chunk = 1U << 12U;
+constexpr std::size_t points_per_chunk = 1U << 10U;
+/// And so many before their memory is given back, which has its price.
+constexpr std::size_t points_per_run = 1U << 17U;
 /// LASzip sets it in the number of the point format.
 constexpr unsigned compressed_bit = 0x80;
 /// Formats 0 to 5 have three flags above the class.
@@ -176,16 +178,20 @@ RecordBits find_used_bits(const std::byte* records, std::size_t record_bytes, st
     const auto gather = [&](std::size_t begin, std::size_t end) {
         RecordBits bits(record_bytes);
         constexpr std::size_t word = sizeof(std::uint64_t);
-        // The last word may overlap the one before. No record has less than 20 bytes.
-        for (std::size_t at = 0; at < record_bytes; at += word) {
-            const std::size_t place = std::min(at, record_bytes - word);
-            std::uint64_t all = 0;
-            for (std::size_t i = begin; i < end; ++i) {
-                std::uint64_t some = 0;
-                std::memcpy(&some, records + i * record_bytes + place, word);
-                all |= some;
+        for (std::size_t first = begin; first < end; first += points_per_chunk) {
+            const std::size_t last = std::min(first + points_per_chunk, end);
+            // The last word may overlap the one before. No record has less than 20 bytes.
+            for (std::size_t at = 0; at < record_bytes; at += word) {
+                const std::size_t place = std::min(at, record_bytes - word);
+                std::uint64_t all = 0;
+                std::memcpy(&all, bits.data() + place, word);
+                for (std::size_t i = first; i < last; ++i) {
+                    std::uint64_t some = 0;
+                    std::memcpy(&some, records + i * record_bytes + place, word);
+                    all |= some;
+                }
+                std::memcpy(bits.data() + place, &all, word);
             }
-            std::memcpy(bits.data() + place, &all, word);
         }
         let_go({records + begin * record_bytes, (end - begin) * record_bytes});
         return bits;
@@ -194,8 +200,7 @@ RecordBits find_used_bits(const std::byte* records, std::size_t record_bytes, st
         std::transform(a.begin(), a.end(), b.begin(), a.begin(), std::bit_or<>());
         return a;
     };
-    return parallel_reduce(context, count, points_per_chunk, RecordBits(record_bytes), gather,
-                           join);
+    return parallel_reduce(context, count, points_per_run, RecordBits(record_bytes), gather, join);
 }
 
 /// The fields as the decoder is to take them: the class always, of the others what is used.

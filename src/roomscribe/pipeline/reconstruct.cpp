@@ -11,19 +11,19 @@
 
 #include "roomscribe/interpretation/bent_walls.hpp"
 #include "roomscribe/interpretation/component_support.hpp"
+#include "roomscribe/interpretation/doubtful_places.hpp"
 #include "roomscribe/interpretation/fixtures/find_fixtures.hpp"
 #include "roomscribe/interpretation/fixtures/front_parts.hpp"
 #include "roomscribe/interpretation/fixtures/furniture_fixtures.hpp"
 #include "roomscribe/interpretation/fixtures/mounting_faces.hpp"
 #include "roomscribe/interpretation/furniture/furniture.hpp"
-#include "roomscribe/interpretation/open_places.hpp"
 #include "roomscribe/interpretation/openings/wall_openings.hpp"
 #include "roomscribe/interpretation/paper_rules/label_by_rules.hpp"
 #include "roomscribe/interpretation/paper_rules/orient_by_door.hpp"
 #include "roomscribe/interpretation/paper_rules/plane_quadrilaterals.hpp"
 #include "roomscribe/model/kept_result.hpp"
 #include "roomscribe/model/result_bytes.hpp"
-#include "roomscribe/preprocessing/saturated_returns.hpp"
+#include "roomscribe/preprocessing/false_returns.hpp"
 #include "roomscribe/preprocessing/scan_origin.hpp"
 #include "roomscribe/structure/outlined_patches.hpp"
 #include "roomscribe/structure/planar_surfaces.hpp"
@@ -83,7 +83,7 @@ void add_derived_values(std::vector<DerivedValue>& derived, const ScanStatistics
 
 /// A scan that does not say where it was seen from mostly was from its origin: then its rays are
 /// evidence.
-void infer_scanner(Reconstruction& reconstruction) {
+void infer_scanner(Reconstruction& reconstruction, const Context& context) {
     ScanMap& map = reconstruction.map;
     if (map.sections.size() != 1 || map.sections[0].sensor_position ||
         !map.cloud.global_shift.isZero()) {
@@ -92,7 +92,7 @@ void infer_scanner(Reconstruction& reconstruction) {
     // Its ends of the range would be jumps everywhere.
     Scan scan;
     scan.cloud.positions = map.cloud.positions;
-    const std::optional<Scan> cleaned = without_saturated_returns(scan);
+    const std::optional<Scan> cleaned = without_false_returns(scan, context);
     const OriginTest test = test_scan_origin(cleaned ? cleaned->cloud : scan.cloud);
     if (test.is_scanner) {
         map.sections[0].sensor_position = Eigen::Vector3d::Zero();
@@ -349,8 +349,13 @@ Reconstruction register_to_map(std::vector<Scan>&& scans, const PipelineSettings
 void interpret_map(Reconstruction& reconstruction, const PipelineSettings& settings,
                    const Context& context) {
     check_settings(settings);
-    infer_scanner(reconstruction);
-    const std::vector<HiddenPoint> hidden = hide_saturated_returns(reconstruction.map);
+    infer_scanner(reconstruction, context);
+    const std::vector<HiddenPoint> hidden = hide_false_returns(reconstruction.map, context);
+    if (!hidden.empty()) {
+        reconstruction.derived_values.push_back(
+            {"interpretation.false_returns", static_cast<double>(hidden.size()), "",
+             "points at the end of the scanner's range or on no surface: left out, unknown"});
+    }
     const ScanMap& map = reconstruction.map;
     if (settings.interpretation.method == InterpretationMethod::paper) {
         interpret_as_paper(reconstruction, map, settings, context);
@@ -358,6 +363,7 @@ void interpret_map(Reconstruction& reconstruction, const PipelineSettings& setti
         interpret_by_default(reconstruction, map, settings, context);
     }
     measure_support(map, reconstruction.labels, reconstruction.scene.components, context);
+    doubt_blurred_places(reconstruction.scene, reconstruction.labels);
     put_back(hidden, reconstruction.map);
 }
 

@@ -4,17 +4,14 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <numbers>
 
-#include <Eigen/Core>
+#include "roomscribe/geometry/point_cloud.hpp"
 
 namespace roomscribe {
 
-namespace {
-
-std::vector<std::uint32_t> find_saturated(std::span<const Eigen::Vector3f> positions,
-                                          const Eigen::Vector3d& sensor) {
+std::vector<std::uint32_t> find_saturated_returns(std::span<const Eigen::Vector3f> positions,
+                                                  const Eigen::Vector3d& sensor) {
     // The last two shells of the range, each this share of it thick: 6 cm of 30 m.
     constexpr double shell_thickness = 0.002;
     // Fewer mislead nobody; in a place the shell before the last holds as many as the last.
@@ -58,47 +55,6 @@ std::vector<std::uint32_t> find_saturated(std::span<const Eigen::Vector3f> posit
     // Unit vectors within an angle of their mean have a mean at least as long as its cosine.
     if (mean.norm() >= std::cos(max_plane_spread)) return {};
     return last;
-}
-
-}  // namespace
-
-std::vector<std::uint32_t> find_saturated_returns(const Scan& scan) {
-    return find_saturated(scan.cloud.positions, scan.sensor_position());
-}
-
-std::optional<Scan> without_saturated_returns(const Scan& scan) {
-    const std::vector<std::uint32_t> saturated = find_saturated_returns(scan);
-    if (saturated.empty()) return std::nullopt;
-    Scan rest;
-    rest.name = scan.name;
-    rest.cloud.positions = scan.cloud.positions;
-    rest.cloud.normals = scan.cloud.normals;
-    rest.cloud.grid = scan.cloud.grid;
-    rest.cloud.sensor_pose = scan.cloud.sensor_pose;
-    rest.cloud.global_shift = scan.cloud.global_shift;
-    for (const std::uint32_t i : saturated)
-        rest.cloud.positions[i].setConstant(std::numeric_limits<float>::quiet_NaN());
-    return rest;
-}
-
-std::vector<HiddenPoint> hide_saturated_returns(ScanMap& map) {
-    std::vector<HiddenPoint> hidden;
-    std::vector<Eigen::Vector3f>& positions = map.cloud.positions;
-    for (const MapSection& section : map.sections) {
-        if (!section.sensor_position) continue;
-        const auto of_section = std::span(positions).subspan(section.first, section.count);
-        for (const std::uint32_t i : find_saturated(of_section, *section.sensor_position)) {
-            const std::uint32_t number = section.first + i;
-            hidden.push_back({number, positions[number]});
-            positions[number].setConstant(std::numeric_limits<float>::quiet_NaN());
-        }
-    }
-    return hidden;
-}
-
-void put_back(std::span<const HiddenPoint> hidden, ScanMap& map) {
-    for (const HiddenPoint& point : hidden)
-        map.cloud.positions[point.number] = point.position;
 }
 
 }  // namespace roomscribe

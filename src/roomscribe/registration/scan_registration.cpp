@@ -13,7 +13,7 @@
 #include "roomscribe/core/quantile.hpp"
 #include "roomscribe/model/kept_result.hpp"
 #include "roomscribe/model/result_bytes.hpp"
-#include "roomscribe/preprocessing/saturated_returns.hpp"
+#include "roomscribe/preprocessing/false_returns.hpp"
 #include "roomscribe/preprocessing/scan_statistics.hpp"
 #include "roomscribe/registration/graph/link_consistency.hpp"
 
@@ -23,9 +23,9 @@ namespace {
 /// The scans without what is no return; those that have none are not copied.
 class CleanScans {
   public:
-    explicit CleanScans(std::span<const Scan> scans) : as_given_(scans) {
+    CleanScans(std::span<const Scan> scans, const Context& context) : as_given_(scans) {
         for (const Scan& scan : scans)
-            cleaned_.push_back(without_saturated_returns(scan));
+            cleaned_.push_back(without_false_returns(scan, context));
     }
     const Scan& operator[](std::size_t i) const {
         return cleaned_[i] ? *cleaned_[i] : as_given_[i];
@@ -245,7 +245,7 @@ ScanRegistration register_scans(std::span<const Scan> scans,
                               fmt::format("one per scan, {}, or none", scans.size()));
     }
     ScanRegistration result;
-    const CleanScans clean(scans);
+    const CleanScans clean(scans, context);
     const std::vector<ScanStatistics> statistics = measure_scans(clean, context);
     const RegistrationScale scale = derive_scale(statistics, settings, result.derived_values);
     const bool is_graph = settings.sequence == ScanSequence::graph;

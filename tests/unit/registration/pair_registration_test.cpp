@@ -2,6 +2,7 @@
 #include "roomscribe/registration/pair/pair_registration.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <numeric>
@@ -58,6 +59,17 @@ Scan shuffled(const Scan& scan, std::uint64_t seed) {
     for (const std::size_t i : order)
         result.cloud.positions.push_back(scan.cloud.positions[i]);
     return result;
+}
+
+/// The same place with two people in it, each time elsewhere.
+Scan scan_with_people(const Vector3d& place, std::uint64_t seed,
+                      const std::array<Eigen::Vector2d, 2>& people) {
+    Scenario room = test::l_shaped_room();
+    for (const Eigen::Vector2d& at : people)
+        room.items.push_back({.kind = "person", .at = at, .size = {0.34, 0.5, 1.75}});
+    Transform pose = Transform::Identity();
+    pose.translation() = place;
+    return test::simulate_scan(room, pose, seed, coarseness);
 }
 
 class RegisterPairOfScans : public testing::Test {
@@ -124,6 +136,16 @@ TEST_F(RegisterPairOfScans, AGuessLeadsToTheSamePose) {
     EXPECT_EQ(link.verdict, LinkVerdict::accepted);
     EXPECT_THAT(link.target_from_source,
                 TransformNear(direct.target_from_source, same_distance, same_angle));
+}
+
+TEST_F(RegisterPairOfScans, PeopleWhoWalkAboutDoNotMatter) {
+    const Scan crowded = scan_with_people({3.6, 2.0, 1.6}, 2, {{{2.3, 1.6}, {5.0, 0.8}}});
+    const RegistrationLink found = link(crowded, target);
+    EXPECT_EQ(found.verdict, LinkVerdict::accepted);
+    EXPECT_THAT(found.target_from_source,
+                TransformNear(direct.target_from_source, same_distance, same_angle));
+    const Scan other = scan_with_people({1.3, 2.2, 1.4}, 1, {{{1.2, 1.1}, {4.4, 2.2}}});
+    EXPECT_EQ(link(crowded, other).verdict, LinkVerdict::accepted);
 }
 
 TEST_F(RegisterPairOfScans, IsRejectedBetweenOtherRooms) {

@@ -55,6 +55,48 @@ Outcome outcome_of(const WitnessTally& piece) {
     return Outcome::displaced;
 }
 
+using Body = std::vector<std::uint32_t>;
+
+/// Bodies of pieces whose cubes touch each other, by a corner at least.
+std::vector<Body> part_into_bodies(Body pieces, const WitnessSet& witnesses) {
+    std::vector<Body> bodies;
+    while (!pieces.empty()) {
+        Body body{pieces.back()};
+        pieces.pop_back();
+        for (std::size_t i = 0; i < body.size(); ++i) {
+            const Eigen::Vector3i at = witnesses.cubes[body[i]];
+            const auto touching =
+                std::stable_partition(pieces.begin(), pieces.end(), [&](std::uint32_t other) {
+                    return (witnesses.cubes[other] - at).cwiseAbs().maxCoeff() > 1;
+                });
+            body.insert(body.end(), touching, pieces.end());
+            pieces.erase(touching, pieces.end());
+        }
+        bodies.push_back(std::move(body));
+    }
+    return bodies;
+}
+
+/// Between the middles of its cubes.
+double length_of(const Body& body, const WitnessSet& witnesses) {
+    int squared_length = 0;
+    for (const std::uint32_t a : body) {
+        for (const std::uint32_t b : body) {
+            squared_length =
+                std::max(squared_length, (witnesses.cubes[a] - witnesses.cubes[b]).squaredNorm());
+        }
+    }
+    return witnesses.cube_size * std::sqrt(static_cast<double>(squared_length));
+}
+
+std::size_t count_contradictions(Body contradicted, const WitnessSet& witnesses) {
+    constexpr double height_of_person = 2.0;  // m
+    std::size_t contradictions = 0;
+    for (const Body& body : part_into_bodies(std::move(contradicted), witnesses))
+        contradictions += length_of(body, witnesses) <= height_of_person ? 1 : body.size();
+    return contradictions;
+}
+
 /// One way: every `stride`-th of one scan's witnesses, as `judge` judges them.
 WitnessCount hear_all(const WitnessSet& witnesses, std::size_t stride, const PreparedScan& judge,
                       const Transform& judge_from_seen, const SupportTolerance& tolerance,
@@ -71,13 +113,18 @@ WitnessCount hear_all(const WitnessSet& witnesses, std::size_t stride, const Pre
         }
     });
     WitnessCount result;
-    std::vector<WitnessTally> pieces(witnesses.num_pieces);
+    std::vector<WitnessTally> pieces(witnesses.cubes.size());
     for (std::size_t i = 0; i < outcomes.size(); ++i) {
         count(outcomes[i], result.points);
         count(outcomes[i], pieces[witnesses.pieces[i * stride]]);
     }
-    for (const WitnessTally& piece : pieces)
-        count(outcome_of(piece), result.pieces);
+    Body contradicted;
+    for (std::uint32_t i = 0; i < pieces.size(); ++i) {
+        const Outcome outcome = outcome_of(pieces[i]);
+        count(outcome, result.pieces);
+        if (outcome == Outcome::contradicted) contradicted.push_back(i);
+    }
+    result.contradictions = count_contradictions(std::move(contradicted), witnesses);
     return result;
 }
 
@@ -98,6 +145,7 @@ WitnessTally& WitnessTally::operator+=(const WitnessTally& other) {
 WitnessCount& WitnessCount::operator+=(const WitnessCount& other) {
     points += other.points;
     pieces += other.pieces;
+    contradictions += other.contradictions;
     return *this;
 }
 
@@ -120,14 +168,27 @@ double PoseSupport::evidence() const {
     // Wrong poses were chosen because they bring large planes together, so these say little for a
     // pose; rays that passed speak alike against either. What is displaced says nothing: blurred
     // surfaces are displaced at the right pose, too. docs/registration.md
-    constexpr double confirmed_shell = 0.02;
-    WitnessTally pieces = shell.pieces;
-    pieces += detail.pieces;
-    const double confirmed = static_cast<double>(detail.pieces.confirmed) +
-                             confirmed_shell * static_cast<double>(shell.pieces.confirmed);
+    constexpr double weight_of_shell = 0.02;
+    const std::size_t shell_confirmed = shell.pieces.confirmed;
+    const std::size_t detail_confirmed = detail.pieces.confirmed;
+    const double confirmed = static_cast<double>(detail_confirmed) +
+                             weight_of_shell * static_cast<double>(shell_confirmed);
+    const auto contradicted_share = [](std::size_t contradicted, std::size_t confirmed_pieces) {
+        return share(static_cast<double>(contradicted), contradicted + confirmed_pieces);
+    };
+    // Rooms do not move: where people do, as good as nothing of the shell is contradicted, of so
+    // much shell that one per cent would show.
+    constexpr double max_shell_contradiction = 0.01;
+    constexpr std::size_t enough_shell = 200;
+    const bool shell_agrees = shell_confirmed >= enough_shell &&
+                              shell.pieces.contradicted_share() <= max_shell_contradiction;
+    const std::size_t detail_contradicted =
+        shell_agrees ? detail.contradictions : detail.pieces.contradicted;
     // A corridor turned about fits all its shell: its details are not to be outvoted.
     const double contradicted =
-        std::max(detail.pieces.contradicted_share(), pieces.contradicted_share());
+        std::max(contradicted_share(detail_contradicted, detail_confirmed),
+                 contradicted_share(shell.pieces.contradicted + detail_contradicted,
+                                    shell_confirmed + detail_confirmed));
     return 0.5 * confirmed * (1.0 - contradicted / max_contradiction);
 }
 

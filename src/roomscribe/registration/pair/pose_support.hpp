@@ -36,6 +36,9 @@ inline constexpr double max_contradiction = 0.1;
 struct WitnessCount {
     WitnessTally points;
     WitnessTally pieces;
+    /// Contradicted pieces, those of one small body counted once: people walk and chairs are pushed
+    /// about as a whole. A body is what touches; it is small if no longer than a person is tall.
+    std::size_t contradictions = 0;
 
     WitnessCount& operator+=(const WitnessCount& other);
 };
@@ -57,8 +60,9 @@ struct PoseSupport {
     /// What poses are ranked and judged by, in confirmed pieces of detail: these, and a little for
     /// the shell's, less the more pieces are contradicted; below 0 beyond `max_contradiction`. A
     /// share counts and not a number, because contradictions come together: one pane of glass, one
-    /// door that was moved, one bend in a scan. Counts of both scans' pieces are halved, because
-    /// most of them see the same place.
+    /// door that was moved, one bend in a scan. Of the details a person counts once where much
+    /// of the shell is confirmed and none contradicted: at a wrong pose most often both are. Counts
+    /// of both scans' pieces are halved, because most of them see the same place.
     double evidence() const;
 };
 

@@ -46,10 +46,11 @@ void number_pieces(WitnessSet& witnesses, double piece_size) {
         const Eigen::Vector3i cube =
             (position.cast<double>() / piece_size).array().floor().cast<int>();
         const auto next = static_cast<std::uint32_t>(numbers.size());
-        witnesses.pieces.push_back(
-            numbers.try_emplace({cube.x(), cube.y(), cube.z()}, next).first->second);
+        const auto [number, is_new] = numbers.try_emplace({cube.x(), cube.y(), cube.z()}, next);
+        if (is_new) witnesses.cubes.push_back(cube);
+        witnesses.pieces.push_back(number->second);
     }
-    witnesses.num_pieces = numbers.size();
+    witnesses.cube_size = piece_size;
 }
 
 Witnesses choose_witnesses(const SurfacePoints& fine, const SurfacePoints& coarse,

@@ -40,8 +40,10 @@ struct OrientedPoints {
 /// 0.3 m or three coarse voxels. Points of one piece are no independent witnesses.
 struct WitnessSet {
     OrientedPoints points;
-    std::vector<std::uint32_t> pieces;  ///< of every point, numbered from 0
-    std::size_t num_pieces = 0;
+    std::vector<std::uint32_t> pieces;  ///< of every point: index into cubes
+    std::vector<Eigen::Vector3i>
+        cubes;               ///< of every piece, counted in cubes from the scan's origin
+    double cube_size = 0.3;  ///< m
 };
 
 struct Witnesses {

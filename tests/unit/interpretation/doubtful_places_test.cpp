@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "roomscribe/interpretation/open_places.hpp"
+#include "roomscribe/interpretation/doubtful_places.hpp"
 
 #include <gtest/gtest.h>
 
@@ -65,6 +65,35 @@ TEST(OpenPlaces, DoubtKeepsItsOwnReason) {
     PointLabels labels = one_point(Label::wall);
     doubt_open_places(scene, labels);
     EXPECT_EQ(scene.components[0].evidence.alternative, "a leaning board");
+}
+
+void set_scatter(Scene& scene, double rms) {
+    for (Component& component : scene.components) {
+        if (component.label == Label::furniture) continue;
+        component.evidence.rms = rms;
+        component.evidence.points = 100;
+    }
+}
+
+TEST(BlurredPlaces, ScatterThatHidesABookcasePutsAllInDoubt) {
+    Scene scene = scene_of({Label::wall, Label::floor, Label::furniture});
+    set_scatter(scene, 0.05);
+    PointLabels labels = one_point(Label::wall);
+    doubt_blurred_places(scene, labels);
+    expect_doubt(scene, labels);
+    EXPECT_EQ(scene.rooms.size(), 1U);
+}
+
+TEST(BlurredPlaces, ScatterOfAnyScannerLeavesARoomAsItIs) {
+    for (const double rms : {0.0, 0.04}) {
+        Scene scene = scene_of({Label::wall, Label::floor, Label::furniture});
+        if (rms > 0.0) set_scatter(scene, rms);
+        PointLabels labels = one_point(Label::wall);
+        doubt_blurred_places(scene, labels);
+        for (const Component& component : scene.components)
+            EXPECT_EQ(component.verdict, Verdict::accepted);
+        EXPECT_EQ(labels.confidences[0], 0.9F);
+    }
 }
 
 }  // namespace
