@@ -96,6 +96,7 @@ done < <(printf '%s\n' "${!stamp_of[@]}" | LC_ALL=C sort)
 } >"$batches/compile_commands.json"
 
 num_jobs=${CMAKE_BUILD_PARALLEL_LEVEL:-$(nproc)}
+# shellcheck disable=SC2016
 for ((batch = 0; batch < num_batches; ++batch)); do printf '%s\n' "$batch"; done |
     xargs -P "$num_jobs" -I{} bash -c \
         'clang-tidy-14 -p "$0" --quiet "$0/{}.cpp" >"$0/{}.log" 2>&1 && : >"$0/{}.passed" || :' "$batches"

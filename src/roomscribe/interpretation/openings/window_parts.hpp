@@ -27,12 +27,12 @@ enum class WindowPart : std::uint8_t { reveal, frame, pane };
 
 /// Sorts the points in a window's hole into its parts, in their order.
 ///
-/// Frame and pane are two layers: the frame's front is where most points along the hole's sides lie;
-/// the pane is where most of those lie that are farther inside and behind it. Where the frame shows
-/// densely, mullions, sashes and transoms are told by the places that it covers, and what lies close
-/// around them at the pane's depth are their sides; else by `frame_width`. A blind covers the hole
-/// from its lintel downwards, in or before the frame: the pane's, as it is what the window shows.
-/// Before the frame lies the reveal, which is the wall's.
+/// Frame and pane are two layers: the frame's front is where most points along the hole's sides
+/// lie; the pane is where most of those lie that are farther inside and behind it. Where the frame
+/// shows densely, mullions, sashes and transoms are told by the places that it covers, and what
+/// lies close around them at the pane's depth are their sides; else by `frame_width`. A blind
+/// covers the hole from its lintel downwards, in or before the frame: the pane's, as it is what the
+/// window shows. Before the frame lies the reveal, which is the wall's.
 ///
 /// `noise`: m, of the points. Too few points to see a layer: the depths of `hole` hold.
 std::vector<WindowPart> sort_window_points(std::span<const HolePoint> points,
