@@ -69,7 +69,7 @@ std::string free_name(const PointCloud& cloud, std::string_view wanted) {
     std::string name(wanted);
     while (std::any_of(cloud.channels.begin(), cloud.channels.end(),
                        [&name](const Channel& channel) { return channel.name == name; })) {
-        name = "roomscribe_" + name;
+        name.insert(0, "roomscribe_");
     }
     return name;
 }

@@ -112,7 +112,7 @@ PatchPoints points_of(const StagePicture& picture, bool with_boundary) {
         picture.view.view_from_cloud.linear().row(2).transpose().cast<float>();
     for (std::size_t i = 0; i < picture.patches.size(); ++i) {
         for (const Eigen::Vector3f& point : picture.patches[i]->boundary) {
-            points.places.push_back(point + before * to_viewer);
+            points.places.emplace_back(point + before * to_viewer);
             points.patches.push_back(i);
         }
     }

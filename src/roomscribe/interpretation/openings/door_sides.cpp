@@ -14,14 +14,17 @@
 namespace roomscribe {
 namespace {
 
-/// m. The profile's bins; where it begins within the hole and ends on the wall.
+/// m, of the profile's bins; how many lie within the hole and out of it.
 constexpr double bin = 0.01;
-constexpr double inward = 0.14;
-constexpr double outward = 0.32;
-constexpr auto num_bins = static_cast<std::size_t>((inward + outward) / bin + 0.5);
-/// m. Architraves are 44 to 95 mm wide, block frames to 120 mm; a hole is known to about a cell.
-constexpr double least_casing = 0.04;
-constexpr double most_casing = 0.13;
+constexpr std::size_t bins_inward = 14;
+constexpr std::size_t bins_outward = 32;
+constexpr std::size_t num_bins = bins_inward + bins_outward;
+constexpr double inward = bin * bins_inward;
+constexpr double outward = bin * bins_outward;
+/// Bins of a casing: architraves are 44 to 95 mm wide, block frames to 120 mm.
+constexpr std::size_t narrowest = 4;
+constexpr std::size_t widest = 13;
+/// m. A hole is known to about a cell of the wall's relief.
 constexpr double most_shift = 0.15;
 constexpr double most_narrowing = 0.05;
 /// m before and behind the face of the wall, of what belongs to wall and casing.
@@ -97,8 +100,6 @@ struct Casing {
     double error = std::numeric_limits<double>::infinity();
 };
 
-constexpr auto narrowest = static_cast<std::size_t>(least_casing / bin + 0.5);
-constexpr auto widest = static_cast<std::size_t>(most_casing / bin + 0.5);
 /// Bins of the leaf, and of the wall, that must show.
 constexpr std::size_t min_bins = 5;
 
