@@ -76,7 +76,7 @@ TEST(ReadDoorSide, AFrameInThePlaneOfItsWallShowsNothing) {
 TEST(ReadDoorSide, TheLiningIsNoCasing) {
     const auto side =
         Edge().add(-0.3, 0.0, 0.05).add(0.0, 0.05, 0.025).add(0.05, 0.5, 0.0).read(0.05);
-    if (side) EXPECT_FALSE(side->outer);
+    EXPECT_FALSE(side && side->outer);
 }
 
 TEST(ReadDoorSide, WhatIsNarrowerThanTheHoleSeenThroughIsALeafAjar) {
