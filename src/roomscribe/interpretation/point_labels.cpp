@@ -9,6 +9,7 @@
 
 #include "roomscribe/core/error.hpp"
 #include "roomscribe/core/parallel.hpp"
+#include "roomscribe/interpretation/openings/face_axes.hpp"
 #include "roomscribe/interpretation/openings/window_parts.hpp"
 
 namespace roomscribe {
@@ -160,51 +161,43 @@ CandidateTable find_candidates(const Labeller& labeller, std::size_t num_voxels)
 class OpeningTest {
   public:
     OpeningTest(const WallOpening& opening, const RoomSurfaces& surfaces, const Eigen::Vector3d& up)
-        : opening_(opening) {
-        const WallFace& face = surfaces.storeys[opening.storey].faces[opening.face];
-        normal_ = face.plane.normal.cast<float>();
-        offset_ = static_cast<float>(face.plane.offset);
-        along_ = face.along.cast<float>();
-        up_ = up.cast<float>();
-        frame_ = opening.hole;
-        leaf_ = frame_;
-        frame_ = opening.type == OpeningType::window
+        : opening_(opening),
+          axes_(surfaces.storeys[opening.storey].faces[opening.face], up),
+          leaf_(opening.hole),
+          frame_(opening.type == OpeningType::window
                      ? leaf_.grown(hole_slack, hole_slack, hole_slack)
-                     : leaf_.grown(opening.frame_width, 0.0, opening.frame_width);
-    }
+                     : leaf_.grown(opening.frame_width, 0.0, opening.frame_width)) {}
 
     const WallOpening& opening() const { return opening_; }
 
+    FacePlace place_of(const Eigen::Vector3f& point) const { return axes_.place_of(point); }
+
     /// In the wall, in or just beside the hole or the casing.
-    bool reaches(const Eigen::Vector3f& point) const {
-        const float depth = offset_ - normal_.dot(point);
-        return depth <= static_cast<float>(max_wall_depth) && depth >= -max_casing &&
-               is_in(frame_, static_cast<double>(along_.dot(point)),
-                     static_cast<double>(up_.dot(point)));
+    bool reaches(const FacePlace& place) const {
+        return place.depth <= static_cast<float>(max_wall_depth) && place.depth >= -max_casing &&
+               is_in(frame_, place);
     }
 
-    /// Number of the component in Openings::components that a point in reach belongs to, or
+    /// Number of the component in Openings::components that a place in reach belongs to, or
     /// nothing. Not for windows.
-    std::optional<std::size_t> component_of(const Eigen::Vector3f& point) const {
-        const float depth = offset_ - normal_.dot(point);
-        const double along = static_cast<double>(along_.dot(point));
-        const double above = static_cast<double>(up_.dot(point));
+    std::optional<std::size_t> component_of(const FacePlace& place) const {
         const auto leaf_depth = static_cast<float>(opening_.depth);
-        if (is_in(leaf_, along, above)) {
+        if (is_in(leaf_, place)) {
             // The lining lies along the sides, before and behind the leaf.
-            const bool is_at_side = std::min({along - leaf_.start, leaf_.end - along,
-                                              leaf_.top - above}) < lining_width;
+            const bool is_at_side = std::min({place.along - leaf_.start, leaf_.end - place.along,
+                                              leaf_.top - place.above}) < lining_width;
             // What stands in a passage is no part of it.
             if (opening_.type == OpeningType::passage && !is_at_side) return std::nullopt;
-            const bool is_leaf = std::abs(depth - leaf_depth) <= leaf_reach;
+            const bool is_leaf = std::abs(place.depth - leaf_depth) <= leaf_reach;
             return opening_.components[is_at_side && (opening_.is_open || !is_leaf) ? 1 : 0];
         }
         return opening_.components[1];
     }
 
     HolePoint place_in_hole(const Eigen::Vector3f& point) const {
-        return {along_.dot(point) - static_cast<float>(leaf_.start),
-                up_.dot(point) - static_cast<float>(leaf_.bottom), offset_ - normal_.dot(point)};
+        const FacePlace place = place_of(point);
+        return {place.along - static_cast<float>(leaf_.start),
+                place.above - static_cast<float>(leaf_.bottom), place.depth};
     }
 
   private:
@@ -213,16 +206,13 @@ class OpeningTest {
     static constexpr double lining_width = 0.08;  // m, of what rays see of it aslant
     static constexpr float leaf_reach = 0.06F;    // m: half of the leaf, its panels and noise
 
-    static bool is_in(const WallRectangle& rectangle, double along, double above) {
-        return along >= rectangle.start && along <= rectangle.end && above >= rectangle.bottom &&
-               above <= rectangle.top;
+    static bool is_in(const WallRectangle& rectangle, const FacePlace& place) {
+        return place.along >= rectangle.start && place.along <= rectangle.end &&
+               place.above >= rectangle.bottom && place.above <= rectangle.top;
     }
 
     const WallOpening& opening_;
-    Eigen::Vector3f normal_;
-    float offset_ = 0.0F;
-    Eigen::Vector3f along_;
-    Eigen::Vector3f up_;
+    FaceAxes axes_;
     WallRectangle leaf_;
     WallRectangle frame_;
 };
@@ -269,12 +259,13 @@ void label_openings(const PointCloud& map, const SurfaceSample& sample,
                 continue;
             }
             for (std::size_t t = 0; t < tests.size(); ++t) {
-                if (!tests[t].reaches(map.positions[i])) continue;
+                const FacePlace place = tests[t].place_of(map.positions[i]);
+                if (!tests[t].reaches(place)) continue;
                 if (tests[t].opening().type == OpeningType::window) {
                     at_windows[begin / chunk].push_back({i, t});
                     break;
                 }
-                const auto component = tests[t].component_of(map.positions[i]);
+                const auto component = tests[t].component_of(place);
                 if (!component) continue;
                 give(i, *component);
                 break;

@@ -10,6 +10,8 @@
 #include <vector>
 
 #include "roomscribe/core/parallel.hpp"
+#include "roomscribe/core/quantile.hpp"
+#include "roomscribe/interpretation/openings/face_axes.hpp"
 
 namespace roomscribe {
 namespace {
@@ -32,12 +34,6 @@ constexpr double most_before = 0.06;
 constexpr double most_behind = 0.06;
 constexpr std::size_t min_in_bin = 4;
 
-double median(std::vector<float> values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return static_cast<double>(*middle);
-}
-
 /// Median depths across an edge, from within the hole outwards.
 class EdgeProfile {
   public:
@@ -52,7 +48,7 @@ class EdgeProfile {
         for (std::size_t i = 0; i < num_bins; ++i) {
             const std::size_t count = depths[i].size();
             const bool is_seen = count >= min_in_bin;
-            const double level = is_seen ? median(std::move(depths[i])) : 0.0;
+            const double level = is_seen ? static_cast<double>(median(depths[i])) : 0.0;
             counts_[i + 1] = counts_[i] + static_cast<double>(count);
             seen_[i + 1] = seen_[i] + (is_seen ? 1.0 : 0.0);
             sums_[i + 1] = sums_[i] + level;
@@ -203,48 +199,40 @@ struct DoorEdges {
     std::size_t num_points = 0;
 };
 
-/// Where a point lies in the wall of a door.
-class DoorPlace {
+/// Tells which edge of a door a point is beside.
+class DoorSurroundings {
   public:
-    DoorPlace(const WallOpening& opening, const WallFace& face, const Eigen::Vector3d& up)
-        : hole_(opening.hole),
-          normal_(face.plane.normal.cast<float>()),
-          offset_(static_cast<float>(face.plane.offset)),
-          along_(face.along.cast<float>()),
-          up_(up.cast<float>()) {}
+    DoorSurroundings(const WallOpening& opening, const WallFace& face, const Eigen::Vector3d& up)
+        : hole_(opening.hole), axes_(face, up) {}
 
-    bool is_near(const Eigen::Vector3f& point, double reach) const {
-        const double depth = offset_ - normal_.dot(point);
-        const double along = along_.dot(point);
-        const double above = up_.dot(point);
-        return depth >= -most_before - reach && depth <= 0.2 + reach &&
-               along >= hole_.start - outward - reach && along <= hole_.end + outward + reach &&
-               above >= hole_.bottom - reach && above <= hole_.top + outward + reach;
+    FacePlace place_of(const Eigen::Vector3f& point) const { return axes_.place_of(point); }
+
+    bool is_near(const FacePlace& place, double reach) const {
+        return place.depth >= -most_before - reach && place.depth <= 0.2 + reach &&
+               place.along >= hole_.start - outward - reach &&
+               place.along <= hole_.end + outward + reach && place.above >= hole_.bottom - reach &&
+               place.above <= hole_.top + outward + reach;
     }
 
-    void add(const Eigen::Vector3f& point, DoorEdges& edges) const {
+    void add(const FacePlace& place, DoorEdges& edges) const {
         // Skirtings and thresholds below; corners belong to both edges.
         constexpr double from_corner = 0.15;
-        const float depth = offset_ - normal_.dot(point);
-        const double along = along_.dot(point);
-        const double above = up_.dot(point);
+        const double along = place.along;
+        const double above = place.above;
         if (above >= hole_.bottom + 0.3 && above <= hole_.top - from_corner) {
             const bool is_left = along < 0.5 * (hole_.start + hole_.end);
             const double out = is_left ? hole_.start - along : along - hole_.end;
             if (out >= -inward)
-                edges.points[is_left ? 0 : 1].push_back({static_cast<float>(out), depth});
+                edges.points[is_left ? 0 : 1].push_back({static_cast<float>(out), place.depth});
         } else if (along >= hole_.start + from_corner && along <= hole_.end - from_corner &&
                    above >= hole_.top - inward) {
-            edges.points[2].push_back({static_cast<float>(above - hole_.top), depth});
+            edges.points[2].push_back({static_cast<float>(above - hole_.top), place.depth});
         }
     }
 
   private:
     WallRectangle hole_;
-    Eigen::Vector3f normal_;
-    float offset_;
-    Eigen::Vector3f along_;
-    Eigen::Vector3f up_;
+    FaceAxes axes_;
 };
 
 void move_edges(WallOpening& opening, const DoorEdges& edges) {
@@ -272,7 +260,7 @@ void fit_door_sides(const PointCloud& map, const SurfaceSample& sample,
                     const RoomSurfaces& surfaces, const Eigen::Vector3d& up,
                     std::span<WallOpening> openings, const Context& context) {
     std::vector<std::size_t> doors;
-    std::vector<DoorPlace> places;
+    std::vector<DoorSurroundings> places;
     for (std::size_t i = 0; i < openings.size(); ++i) {
         if (openings[i].type == OpeningType::window || openings[i].is_pane) continue;
         doors.push_back(i);
@@ -285,9 +273,10 @@ void fit_door_sides(const PointCloud& map, const SurfaceSample& sample,
     parallel_for(context, sample.cloud.size(), 8192, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             const Eigen::Vector3f& center = sample.cloud.positions[i];
-            is_near[i] = std::any_of(places.begin(), places.end(), [&](const DoorPlace& place) {
-                return place.is_near(center, reach);
-            });
+            is_near[i] =
+                std::any_of(places.begin(), places.end(), [&](const DoorSurroundings& door) {
+                    return door.is_near(door.place_of(center), reach);
+                });
         }
     });
     std::vector<std::uint32_t> near;
@@ -299,8 +288,9 @@ void fit_door_sides(const PointCloud& map, const SurfaceSample& sample,
         for (std::size_t d = begin; d < end; ++d) {
             DoorEdges edges;
             for (const std::uint32_t i : near) {
-                if (!places[d].is_near(map.positions[i], 0.0)) continue;
-                places[d].add(map.positions[i], edges);
+                const FacePlace place = places[d].place_of(map.positions[i]);
+                if (!places[d].is_near(place, 0.0)) continue;
+                places[d].add(place, edges);
                 edges.noise += static_cast<double>(sample.noise_of_voxel[sample.voxel_of_point[i]]);
                 ++edges.num_points;
             }
