@@ -24,6 +24,8 @@ constexpr double layer_deviations = 2.5;
 constexpr double frame_relief = 0.02;
 /// m. Narrower than the narrowest glazing bar (18 mm), wide enough for sides seen aslant.
 constexpr double bar_cell = 0.02;
+/// m. The frame's inner sides, seen aslant.
+constexpr double rebate = 0.02;
 /// m. A transom is lower.
 constexpr double least_blind = 0.2;
 
@@ -58,12 +60,15 @@ class CellMask {
 
     int columns() const { return columns_; }
     int rows() const { return rows_; }
-    void mark(const HolePoint& point) { marks_[index(column_of(point), row_of(point))] = 1; }
+    void mark(const HolePoint& point) {
+        marks_[index(cell_of(point.along, columns_), cell_of(point.above, rows_))] = 1;
+    }
     bool holds(int column, int row) const { return marks_[index(column, row)] != 0; }
-    bool holds(const HolePoint& point) const { return holds(column_of(point), row_of(point)); }
-    int row_of(const HolePoint& point) const { return cell_of(point.above, rows_); }
+    bool holds(const HolePoint& point) const {
+        return holds(cell_of(point.along, columns_), cell_of(point.above, rows_));
+    }
 
-    /// Share of the columns, or of the rows' part between, that is marked in a row.
+    /// Share of a row that is marked, without `margin` cells at either end.
     double share_of_row(int row, int margin) const {
         int count = 0;
         for (int column = margin; column < columns_ - margin; ++column)
@@ -76,7 +81,6 @@ class CellMask {
         return std::clamp(static_cast<int>(std::floor(position / static_cast<float>(cell_size_))),
                           0, count - 1);
     }
-    int column_of(const HolePoint& point) const { return cell_of(point.along, columns_); }
     std::size_t index(int column, int row) const {
         return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
                static_cast<std::size_t>(column);
@@ -117,7 +121,7 @@ class WindowSorter {
         const bool is_at_pane = depth > 0.5 * (frame_depth_ + pane_depth_) &&
                                 depth < pane_depth_ + std::max(reach_, least_sinking);
         const bool is_in_light = is_frame_dense_ ? inside > ring_start && !frame_cells_.holds(point)
-                                                 : inside > hole_.frame_width + 0.02;
+                                                 : inside > hole_.frame_width + rebate;
         return is_at_pane && is_in_light ? WindowPart::pane : WindowPart::frame;
     }
 
