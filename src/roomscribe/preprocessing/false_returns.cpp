@@ -9,15 +9,19 @@
 namespace roomscribe {
 namespace {
 
+void blank(std::span<Eigen::Vector3f> positions, const std::vector<std::uint32_t>& numbers) {
+    for (const std::uint32_t i : numbers)
+        positions[i].setConstant(std::numeric_limits<float>::quiet_NaN());
+}
+
 /// Makes the false returns NaN; the first point has this number.
 std::vector<HiddenPoint> hide(std::span<Eigen::Vector3f> positions, const Eigen::Vector3d& sensor,
                               std::uint32_t first_number, const Context& context) {
     std::vector<HiddenPoint> hidden;
     const auto hide_all = [&](const std::vector<std::uint32_t>& numbers) {
-        for (const std::uint32_t i : numbers) {
+        for (const std::uint32_t i : numbers)
             hidden.push_back({first_number + i, positions[i]});
-            positions[i].setConstant(std::numeric_limits<float>::quiet_NaN());
-        }
+        blank(positions, numbers);
     };
     // A shell at the end of the range would be dense enough to be a surface.
     hide_all(find_saturated_returns(positions, sensor));
@@ -29,13 +33,18 @@ std::vector<HiddenPoint> hide(std::span<Eigen::Vector3f> positions, const Eigen:
 
 std::optional<Scan> without_false_returns(const Scan& scan, const Context& context) {
     const Eigen::Vector3d sensor = scan.sensor_position();
-    // Most scans have none and are not copied.
-    if (find_saturated_returns(scan.cloud.positions, sensor).empty() &&
-        find_stray_returns(scan.cloud.positions, sensor, context).empty()) {
-        return std::nullopt;
+    const std::vector<std::uint32_t> saturated =
+        find_saturated_returns(scan.cloud.positions, sensor);
+    std::vector<std::uint32_t> strays;
+    if (saturated.empty()) {
+        strays = find_stray_returns(scan.cloud.positions, sensor, context);
+        // Most scans have none and are not copied.
+        if (strays.empty()) return std::nullopt;
     }
     std::vector<Eigen::Vector3f> positions = scan.cloud.positions;
-    hide(positions, sensor, 0, context);
+    blank(positions, saturated);
+    if (!saturated.empty()) strays = find_stray_returns(positions, sensor, context);
+    blank(positions, strays);
     Scan rest;
     rest.name = scan.name;
     rest.cloud.positions = std::move(positions);
