@@ -26,10 +26,9 @@ struct RoomWithSurface {
     /// Surface is where `is_there(y, z)`.
     explicit RoomWithSurface(const std::function<bool(double, double)>& is_there) {
         plan.has_level.assign(plan.num_cells(), true);
-        for (PlanCell& cell : cells) {
-            cell.ceiling = static_cast<float>(ceiling);
+        plan.ceiling_of_cell.assign(plan.num_cells(), static_cast<float>(ceiling));
+        for (PlanCell& cell : cells)
             cell.has_floor = true;
-        }
         surface.plane.normal = Vector3d::UnitX();
         surface.plane.offset = 2.0 + 0.5 * cell_size;
         surface.along = Vector3d::UnitY();

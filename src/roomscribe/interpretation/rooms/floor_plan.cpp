@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "roomscribe/interpretation/rooms/floor_plan.hpp"
 
+#include <cmath>
+#include <limits>
+
 namespace roomscribe {
 
 using Eigen::Vector2d;
@@ -13,6 +16,7 @@ FloorPlan::FloorPlan(const Vector2d& low, const Vector2d& high, double cell_size
     room_of_cell.assign(num_cells(), no_room);
     is_barrier.assign(num_cells(), false);
     has_level.assign(num_cells(), false);
+    ceiling_of_cell.assign(num_cells(), std::numeric_limits<float>::quiet_NaN());
 }
 
 std::optional<std::size_t> FloorPlan::cell_at(const Vector2d& place) const {
@@ -44,6 +48,18 @@ bool FloorPlan::is_barrier_at(const Vector2d& place) const {
 bool FloorPlan::has_level_at(const Vector2d& place) const {
     const auto cell = cell_at(place);
     return cell && has_level[*cell];
+}
+
+std::optional<double> FloorPlan::ceiling_near(const Vector2d& place, int reach) const {
+    const auto cell = cell_at(place);
+    float highest = std::numeric_limits<float>::quiet_NaN();
+    if (cell) {
+        for_each_neighbor(*cell, reach, [&](std::size_t other) {
+            if (!(highest >= ceiling_of_cell[other])) highest = ceiling_of_cell[other];
+        });
+    }
+    if (std::isnan(highest)) return std::nullopt;
+    return static_cast<double>(highest);
 }
 
 }  // namespace roomscribe

@@ -14,6 +14,9 @@ namespace roomscribe {
 /// In FloorPlan: no room.
 inline constexpr std::int32_t no_room = -1;
 
+/// Cells, within which what is seen of a ceiling is the one over a wall.
+inline constexpr int ceiling_cells = 4;
+
 /// A room as seen from above.
 struct PlanRoom {
     double floor_height = 0.0;             ///< m along up
@@ -45,6 +48,8 @@ class FloorPlan {
     bool is_barrier_at(const Eigen::Vector2d& place) const;
     /// Whether floor or ceiling was seen there.
     bool has_level_at(const Eigen::Vector2d& place) const;
+    /// Height of the highest ceiling seen in the place's cell or within `reach` cells of it.
+    std::optional<double> ceiling_near(const Eigen::Vector2d& place, int reach) const;
 
     /// Whether `test(place)` holds anywhere from `nearest` to `farthest` m from a place in a
     /// direction, a unit vector, looked at a cell's width at a time.
@@ -71,8 +76,9 @@ class FloorPlan {
     }
 
     std::vector<std::int32_t> room_of_cell;
-    std::vector<bool> is_barrier;  ///< per cell
-    std::vector<bool> has_level;   ///< per cell: floor or ceiling was seen
+    std::vector<bool> is_barrier;        ///< per cell
+    std::vector<bool> has_level;         ///< per cell: floor or ceiling was seen
+    std::vector<float> ceiling_of_cell;  ///< m along up, the highest seen in it; else NaN
     std::vector<PlanRoom> rooms;
 
   private:

@@ -156,7 +156,7 @@ void PlanDrawer::mark_levels() {
             const auto cell = plan_.cell_at(point.head<2>());
             if (!cell) return;
             plan_.has_level[*cell] = true;
-            float& ceiling = cells_[*cell].ceiling;
+            float& ceiling = plan_.ceiling_of_cell[*cell];
             const auto height = static_cast<float>(point.z());
             if (!(ceiling >= height)) ceiling = height;
         });
@@ -340,7 +340,7 @@ void PlanDrawer::choose_rooms() {
         if (room == no_room) continue;
         Count& count = counts[static_cast<std::size_t>(room)];
         ++count.cells;
-        count.ceiling += std::isnan(cells_[cell].ceiling) ? 0 : 1;
+        count.ceiling += std::isnan(plan_.ceiling_of_cell[cell]) ? 0 : 1;
         count.floor += cells_[cell].has_floor ? 1 : 0;
         bool is_rim = false;
         bool is_closed = false;
@@ -412,7 +412,8 @@ void PlanDrawer::describe_rooms() {
     for (std::size_t cell = 0; cell < cells_.size(); ++cell) {
         if (plan_.room_of_cell[cell] == no_room) continue;
         const auto room = static_cast<std::size_t>(plan_.room_of_cell[cell]);
-        if (!std::isnan(cells_[cell].ceiling)) ceilings[room].push_back(cells_[cell].ceiling);
+        if (!std::isnan(plan_.ceiling_of_cell[cell]))
+            ceilings[room].push_back(plan_.ceiling_of_cell[cell]);
     }
     for (std::size_t room = 0; room < plan_.rooms.size(); ++room) {
         plan_.rooms[room].floor_height = floor_;

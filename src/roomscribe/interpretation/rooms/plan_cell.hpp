@@ -12,7 +12,6 @@ inline constexpr std::uint32_t min_cell_rays = 2;
 /// What a cell of a FloorPlan is known to be, while the plan is drawn.
 struct PlanCell {
     std::uint32_t num_rays = 0;
-    float ceiling = std::numeric_limits<float>::quiet_NaN();
     float upright_top = -std::numeric_limits<float>::infinity();  ///< of upright surface seen in it
     bool has_floor = false;
     bool is_occupied = false;  ///< something was seen between floor and ceiling

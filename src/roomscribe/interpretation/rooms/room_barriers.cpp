@@ -5,7 +5,6 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <optional>
 
 namespace roomscribe {
@@ -68,7 +67,6 @@ class BarrierDrawer {
     Vector3d in_room(const Eigen::Vector3f& position) const {
         return room_from_map_ * position.cast<double>();
     }
-    std::optional<double> ceiling_near(const Vector2d& place) const;
     bool has_level_behind(const Vector2d& place, const Vector2d& normal) const;
     bool stands_alone(const Vector2d& place, const Vector2d& normal, double top) const;
     template <typename PlaceOf>
@@ -82,19 +80,6 @@ class BarrierDrawer {
     FloorPlan& plan_;
     std::vector<PlanCell>& cells_;
 };
-
-/// Height of the highest ceiling close to a place.
-std::optional<double> BarrierDrawer::ceiling_near(const Vector2d& place) const {
-    const auto cell = plan_.cell_at(place);
-    float highest = std::numeric_limits<float>::quiet_NaN();
-    if (cell) {
-        plan_.for_each_neighbor(*cell, 4, [&](std::size_t other) {
-            if (!(highest >= cells_[other].ceiling)) highest = cells_[other].ceiling;
-        });
-    }
-    if (std::isnan(highest)) return std::nullopt;
-    return static_cast<double>(highest);
-}
 
 /// Whether floor or ceiling was seen behind a place on an upright surface, as it is behind
 /// furniture.
@@ -185,7 +170,7 @@ void BarrierDrawer::draw(const UprightSurface& surface) {
     std::vector<bool> parts(count, false);
     for (std::size_t i = 0; i < count; ++i) {
         const double middle = static_cast<double>(i) + 0.5;
-        const auto ceiling = ceiling_near(place_of(middle));
+        const auto ceiling = plan_.ceiling_near(place_of(middle), ceiling_cells);
         const double top = ceiling.value_or(0.0) - floor_height_;
         const bool has_lintel =
             ceiling &&

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <set>
 
 #include <Eigen/Geometry>
@@ -37,6 +38,16 @@ constexpr double min_clearance = 0.15;
 /// m, in which it is told where along a wall something was seen.
 constexpr double column_width = 0.1;
 
+/// m. Leaves of doors: 0.56 to 1.11 wide and 1.98 to 2.24 high (DIN 18101), and the noise at their
+/// edges; their hinges lie in the wall's plane or a wall's depth behind it.
+constexpr double min_leaf_width = 0.5;
+constexpr double max_leaf_width = 1.25;
+constexpr double max_leaf_height = 2.35;
+constexpr double max_hinge_depth = 0.3;
+/// At the height of people, above the floor.
+constexpr double body_bottom = 0.5;
+constexpr double body_top = 1.8;
+
 enum class AboveFace : std::uint8_t { surface, free, unseen };
 
 class FaceFinder {
@@ -68,13 +79,15 @@ class FaceFinder {
     double share_behind(const WallFace& face, double nearest, double farthest, Test&& test) const;
     bool is_last(const WallFace& face) const;
     bool has_level_behind(const WallFace& face) const;
-    AboveFace look_above(const WallFace& face) const;
-    bool is_wall(const WallFace& face) const;
+    std::optional<double> ceiling_over(const WallFace& face) const;
+    AboveFace look_above(const WallFace& face, std::optional<double> ceiling) const;
+    bool is_wall(const WallFace& face, std::optional<double> ceiling) const;
     bool is_closed_between(const WallFace& wall, double from, double to) const;
     double shared_columns(const WallFace& wall, const WallFace& face) const;
     bool continues(const WallFace& wall, const WallFace& face) const;
     void absorb(WallFace& wall, const WallFace& face) const;
     bool belongs_to(const WallFace& face, const WallFace& wall) const;
+    bool is_leaf_of(const WallFace& face, const WallFace& wall) const;
 
     std::span<const Ray> rays_;
     const SurfaceSample& sample_;
@@ -157,9 +170,9 @@ void FaceFinder::split(std::int32_t room, const Plane& plane, double rms,
         face.noise = static_cast<double>(median(noises));
         const PlanRoom& seen = plan_.rooms[static_cast<std::size_t>(room)];
         face.reaches_floor = face.bottom <= seen.floor_height + foot_reach;
-        face.reaches_ceiling =
-            seen.lowest_ceiling && face.top >= *seen.lowest_ceiling - settings_.ceiling_reach;
-        if (face.area >= min_face_area && face.width() >= min_face_width && is_wall(face))
+        const std::optional<double> ceiling = ceiling_over(face);
+        face.reaches_ceiling = ceiling && face.top >= *ceiling - settings_.ceiling_reach;
+        if (face.area >= min_face_area && face.width() >= min_face_width && is_wall(face, ceiling))
             faces_.push_back(std::move(face));
     }
 }
@@ -194,15 +207,29 @@ bool FaceFinder::has_level_behind(const WallFace& face) const {
                         [&](const Vector2d& place) { return plan_.has_level_at(place); }) > 0.5;
 }
 
+/// Height of the ceiling along the face; where little of that was seen, the room's lowest.
+std::optional<double> FaceFinder::ceiling_over(const WallFace& face) const {
+    const double step = plan_.cell_size();
+    std::vector<double> heights;
+    std::size_t count = 0;
+    for (double along = face.start; along <= face.end; along += step) {
+        const Vector3d foot = face.plane.offset * face.plane.normal + along * face.along;
+        const auto height = plan_.ceiling_near((room_from_map_ * foot).head<2>(), ceiling_cells);
+        if (height) heights.push_back(*height);
+        ++count;
+    }
+    if (2 * heights.size() >= count) return median(heights);
+    return plan_.rooms[static_cast<std::size_t>(face.room)].lowest_ceiling;
+}
+
 /// What becomes of rays above the face, under the ceiling: they go on over furniture and over
 /// leaves that stand open.
-AboveFace FaceFinder::look_above(const WallFace& face) const {
+AboveFace FaceFinder::look_above(const WallFace& face, std::optional<double> ceiling) const {
     constexpr double margin = 0.05;
     constexpr double lintel = 0.3;  // m, of what is looked at where no ceiling tells
     constexpr std::size_t min_rays = 8;
-    const PlanRoom& room = plan_.rooms[static_cast<std::size_t>(face.room)];
     WallRectangle above{face.start, face.end, face.top + margin, 0.0};
-    above.top = room.lowest_ceiling ? *room.lowest_ceiling - margin : above.bottom + lintel;
+    above.top = ceiling ? *ceiling - margin : above.bottom + lintel;
     if (above.height() < margin) return AboveFace::surface;
     const RayCount count =
         count_rays(rays_, {face.plane, face.along, up_, above}, 2.0 * sample_.tolerance);
@@ -212,14 +239,14 @@ AboveFace FaceFinder::look_above(const WallFace& face) const {
 
 /// Walls reach the ceiling and are more than a beam; where that cannot be seen, they are taller
 /// than furniture, unless the view ends there, and the last thing that was seen.
-bool FaceFinder::is_wall(const WallFace& face) const {
+bool FaceFinder::is_wall(const WallFace& face, std::optional<double> ceiling) const {
     const PlanRoom& room = plan_.rooms[static_cast<std::size_t>(face.room)];
     const double height = face.top - face.bottom;
-    const AboveFace above = look_above(face);
+    const AboveFace above = look_above(face, ceiling);
     if (height < settings_.min_wall_height || above == AboveFace::free) return false;
     // Beams, ducts and soffits end above the floor, which goes on under them.
     if (face.reaches_ceiling) return face.reaches_floor || !has_level_behind(face);
-    if (!room.lowest_ceiling && height >= settings_.min_free_wall_height) return true;
+    if (!ceiling && height >= settings_.min_free_wall_height) return true;
     const bool is_tall = face.top >= room.floor_height + settings_.min_closing_top ||
                          (!rays_.empty() && above == AboveFace::unseen);
     return face.area >= min_closing_area && is_tall && is_last(face);
@@ -313,6 +340,49 @@ void FaceFinder::absorb(WallFace& wall, const WallFace& face) const {
     wall.voxels.insert(wall.voxels.end(), face.voxels.begin(), face.voxels.end());
 }
 
+/// Whether the face is a leaf that stands open or ajar in a hole of the wall: of a leaf's size,
+/// lower than the wall, an end in the wall and the other off it, and beside that end the wall goes
+/// on but shows no surface at the height of people.
+bool FaceFinder::is_leaf_of(const WallFace& face, const WallFace& wall) const {
+    constexpr double max_solid_share = 0.3;
+    const double floor = plan_.rooms[static_cast<std::size_t>(face.room)].floor_height;
+    if (face.width() < min_leaf_width || face.width() > max_leaf_width) return false;
+    if (face.top > floor + max_leaf_height || face.top > wall.top - min_clearance) return false;
+    std::array<Vector3d, 2> ends;
+    for (std::size_t side = 0; side < 2; ++side) {
+        ends[side] = face.plane.offset * face.plane.normal +
+                     (side == 0 ? face.start : face.end) * face.along;
+    }
+    const auto depth = [&](const Vector3d& end) {
+        return std::abs(wall.plane.signed_distance(end));
+    };
+    if (depth(ends[0]) > depth(ends[1])) std::swap(ends[0], ends[1]);
+    if (depth(ends[0]) > max_hinge_depth || depth(ends[1]) < depth(ends[0]) + 0.1) return false;
+
+    std::set<int> solid;
+    for (const std::uint32_t voxel : wall.voxels) {
+        const Vector3d point = sample_.cloud.positions[voxel].cast<double>();
+        const double height = point.dot(up_) - floor;
+        if (height < body_bottom || height > body_top) continue;
+        solid.insert(static_cast<int>(std::floor(point.dot(wall.along) / column_width)));
+    }
+    const double hinge = ends[0].dot(wall.along);
+    for (const double side : {-1.0, 1.0}) {
+        const double far = hinge + side * face.width();
+        if (std::min(hinge, far) < wall.start || std::max(hinge, far) > wall.end) continue;
+        int num_solid = 0;
+        int count = 0;
+        for (double along = 0.5 * column_width; along < face.width(); along += column_width) {
+            const double place = hinge + side * along;
+            num_solid +=
+                static_cast<int>(solid.count(static_cast<int>(std::floor(place / column_width))));
+            ++count;
+        }
+        if (num_solid <= max_solid_share * count) return true;
+    }
+    return false;
+}
+
 std::vector<WallFace> FaceFinder::take() {
     const auto by_area = [](const WallFace& a, const WallFace& b) { return a.area > b.area; };
     std::stable_sort(faces_.begin(), faces_.end(), by_area);
@@ -331,7 +401,7 @@ std::vector<WallFace> FaceFinder::take() {
     std::vector<WallFace> kept;
     for (const WallFace& face : walls) {
         const bool has_wall = std::any_of(walls.begin(), walls.end(), [&](const WallFace& wall) {
-            return belongs_to(face, wall);
+            return belongs_to(face, wall) || is_leaf_of(face, wall);
         });
         if (!has_wall) kept.push_back(face);
     }
