@@ -30,6 +30,10 @@ constexpr double min_door_width = 0.55;
 constexpr double max_door_width = 2.3;
 constexpr double min_door_height = 1.8;
 constexpr double max_door_height = 2.5;
+constexpr double usual_door_height = 2.0;
+/// m. Of a door as high as it was seen, where its lintel was not: a scanner whose rays rise by 15
+/// degrees sees so high at 2 m.
+constexpr double min_seen_door_height = 1.5;
 constexpr double max_leaf_width = 1.3;
 /// m. The widest single leaf of DIN 18101; the hole in its frame is no wider.
 constexpr double widest_usual_leaf = 1.11;
@@ -37,6 +41,10 @@ constexpr double widest_usual_leaf = 1.11;
 constexpr double floor_reach = 0.25;
 /// Confidence of a hole like a window's without a sign of glass, until drop_niches().
 constexpr double unglazed = 0.1;
+/// By how much more often than in the wall around it no ray comes back from a hole that is a
+/// window for it alone: panes fill more than half of a French window. Dark or glancing leaves lose
+/// some, too.
+constexpr double pane_lost = 0.25;
 /// m. Panes of doors: above a bottom rail, between stiles.
 constexpr double max_rail = 0.35;
 constexpr double min_glazing_height = 1.3;
@@ -217,7 +225,9 @@ OpenLeaf OpeningFinder::find_open_leaf(const WallFace& face, const WallRectangle
         const double width = extent.end - extent.start;
         if (extent.top > hole.top + 0.12 || extent.top < hole.top - 0.4) continue;
         if (width > hole.width() + 0.15 || extent.top - extent.bottom < 0.5) continue;
-        if (width < 0.4 * std::min(hole.width(), max_leaf_width)) continue;
+        // A part of the leaf may be hidden; of two leaves each has half of the hole.
+        const double share = hole.width() > widest_usual_leaf ? 0.4 : 0.6;
+        if (width < share * std::min(hole.width(), max_leaf_width)) continue;
         // One end of the leaf is at the hinge.
         bool is_hinged = false;
         double nearest = max_hinge_gap;
@@ -270,27 +280,35 @@ std::optional<WallOpening> OpeningFinder::judge(std::size_t storey, std::size_t 
     opening.room_behind = room_behind(rooms, face, hole);
     const double above_floor = hole.bottom - rooms.floor_height;
     const bool is_closed = evidence.opaque >= 0.6 && evidence.at_depth >= 0.6;
-    if (above_floor <= floor_reach) widen_to_hinge(face, hole);
+    // Panes that show or swallow what is behind them.
+    const bool shows_outdoors = evidence.outdoors >= 0.5;
+    const bool is_pane = shows_outdoors || evidence.lost >= pane_lost;
+    if (above_floor <= floor_reach) {
+        widen_to_hinge(face, hole);
+        const double seen_height = hole.top - rooms.floor_height;
+        const bool is_lintel_seen =
+            evidence.rim[static_cast<std::size_t>(HoleSide::top)].has_value();
+        if (!is_lintel_seen && !is_pane && seen_height >= min_seen_door_height)
+            hole.top = std::max(hole.top, rooms.floor_height + usual_door_height);
+    }
     const bool is_door_size = hole.width() >= min_door_width && hole.width() <= max_door_width &&
                               hole.top - rooms.floor_height >= min_door_height &&
                               hole.top - rooms.floor_height <= max_door_height;
     if (above_floor <= floor_reach && is_door_size) {
-        const bool shows_outdoors =
-            evidence.outdoors >= 0.5 && evidence.through_share >= min_through;
         const bool is_indoors = opening.room_behind != no_room ||
                                 (!shows_outdoors && is_indoors_behind(rooms, face, hole));
         hole.bottom = rooms.floor_height;
         opening.frame_width = casing_width;
         const bool is_glazed =
             evidence.lost >= min_lost || (relief.has_rays && evidence.through_share >= 0.3);
-        if (is_closed && (is_indoors || !is_glazed)) {
+        if (is_closed && (is_indoors || !is_glazed || !is_pane)) {
             opening.rule = "leaf of a door's size in the wall, on the floor";
             opening.depth = evidence.depth;
             opening.confidence = 0.9;
             return opening;
         }
         // A door to a room that was not seen otherwise shows it.
-        if (!is_indoors && is_glazed && (shows_outdoors || evidence.through_share < min_through)) {
+        if (!is_indoors && is_glazed && is_pane) {
             opening.type = OpeningType::window;
             opening.rule = "glazed hole in the wall down to the floor, nothing indoors behind it";
             set_depths(opening, evidence);
@@ -332,6 +350,8 @@ std::optional<WallOpening> OpeningFinder::judge(std::size_t storey, std::size_t 
     }
     if (hole.width() < min_window_side || hole.height() < min_window_side) return std::nullopt;
     if (above_floor < 0.3 && hole.height() < 1.5) return std::nullopt;
+    // A part of a door.
+    if (above_floor <= floor_reach && !is_pane) return std::nullopt;
     // Panes let rays pass, or lose them, or lie deeper than the frame; the back of a niche does
     // none of these.
     constexpr double min_sinking = 0.02;
