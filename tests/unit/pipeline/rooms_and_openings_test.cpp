@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <gtest/gtest.h>
 
@@ -127,6 +128,31 @@ TEST_P(TwoRooms, HaveOneDoorAndTwoWindowsThatAreWhereTheyBelong) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Turned, TwoRooms, testing::Values(1, 2, 3));
+
+TEST(InterpretMap, ADoorWhoseLintelNobodySawHasTheUsualHeight) {
+    const SimulatedScene truth = simulate_scene(scenario_from_json(R"({
+      "rooms": [ { "name": "hall", "use": "corridor", "ceiling_height": 2.7,
+                   "outline": [[0, 0], [5, 0], [5, 4], [0, 4]] } ],
+      "openings": [ { "kind": "door", "room": "hall", "at": [2.5, 0], "width": 0.9,
+                      "recess": 0.1 } ],
+      "coarseness": 4,
+      "stations": [ { "at": [1.6, 2.6, 1.1] }, { "at": [3.5, 2.7, 1.4] } ]
+    })"));
+    Reconstruction found;
+    found.map = truth.truth.map;
+    for (Eigen::Vector3f& position : found.map.cloud.positions) {
+        const Vector3d place = truth.truth.scene.room_from_map * position.cast<double>();
+        if (place.y() < 0.3 && place.z() > 1.65 && place.z() < 2.6 &&
+            std::abs(place.x() - 2.5) < 0.9)
+            position.setConstant(std::numeric_limits<float>::quiet_NaN());
+    }
+    interpret_map(found);
+    const auto doors = of_label(found.scene, Label::door);
+    ASSERT_EQ(doors.size(), 1U);
+    EXPECT_NEAR(height_of(*doors[0]), 2.0, 0.1);
+    EXPECT_NEAR(width_of(*doors[0]), 0.9, 0.1);
+    EXPECT_TRUE(of_label(found.scene, Label::window).empty());
+}
 
 TEST(InterpretMap, GivesTheSameSceneOnOneAndTwoThreads) {
     const Found one = find_in_two_rooms(4, test::with_threads(1));
