@@ -59,8 +59,11 @@ constexpr double usual_window_frame = 0.08;
 void set_depths(WallOpening& opening, const HoleEvidence& evidence) {
     constexpr double usual_sinking = 0.035;
     constexpr double max_frame_depth = 0.3;
-    opening.frame_depth = std::min(evidence.depths.rim.value_or(evidence.depth), max_frame_depth);
     const double sunk = evidence.sunk();
+    double frame_depth = evidence.depths.rim.value_or(evidence.depth);
+    // No frame lies behind its pane: of few points, most may have passed beside it.
+    if (sunk < 0.0) frame_depth = std::min(frame_depth, evidence.depth);
+    opening.frame_depth = std::min(frame_depth, max_frame_depth);
     opening.depth = opening.frame_depth + (sunk > 0.01 && sunk < 0.1 ? sunk : usual_sinking);
 }
 
@@ -356,7 +359,7 @@ std::optional<WallOpening> OpeningFinder::judge(std::size_t storey, std::size_t 
     // none of these.
     constexpr double min_sinking = 0.02;
     const bool is_glazed = evidence.lost >= min_lost || evidence.sunk() >= min_sinking ||
-                           is_guess || (relief.has_rays && evidence.through_share >= min_through);
+                           shows_outdoors || is_guess || (relief.has_rays && evidence.through_share >= min_through);
     // A mirror shows what lies behind it without a frame in the wall, and as often as not where
     // another room is.
     constexpr double min_framed = 0.25;
