@@ -129,7 +129,8 @@ class OpeningFinder {
     WallFace reach_to_corners(const StoreyLayout& rooms, const WallFace& face) const;
     LeafExtent extent_of(const PlanarPatch& patch) const;
     void widen_to_hinge(const WallFace& face, WallRectangle& hole) const;
-    OpenLeaf find_open_leaf(const WallFace& face, const WallRectangle& hole) const;
+    OpenLeaf find_open_leaf(const WallFace& face, const WallRectangle& hole,
+                            double thickness) const;
     std::optional<double> thickness_at(const StoreyLayout& layout, const WallFace& face,
                                        const WallRectangle& hole) const;
     void add_flat_doors(std::size_t storey, std::size_t face, const WallRelief& relief,
@@ -208,11 +209,18 @@ LeafExtent OpeningFinder::extent_of(const PlanarPatch& patch) const {
     return extent;
 }
 
-/// The patches of a leaf that stands open: upright, as wide and high as the hole, with one upright
-/// edge at a side of it.
-OpenLeaf OpeningFinder::find_open_leaf(const WallFace& face, const WallRectangle& hole) const {
+/// The patches of a leaf that stands open in a wall of a thickness: upright, as wide and high as
+/// the hole, with one upright edge at a side of it. The lining of that side, as deep as the wall,
+/// may go on in the leaf's plane.
+OpenLeaf OpeningFinder::find_open_leaf(const WallFace& face, const WallRectangle& hole,
+                                       double thickness) const {
     constexpr double max_hinge_gap = 0.25;
+    constexpr double width_slack = 0.15;
+    constexpr double max_above = 0.2;  // casings are to 0.1 wide
     OpenLeaf leaf;
+    // Of two leaves each has half of the hole, and a part of a leaf may be hidden.
+    const double widest = std::min(hole.width(), max_leaf_width);
+    const double min_width = (hole.width() > widest_usual_leaf ? 0.4 : 0.6) * widest;
     // Cupboards beside a door look like leaves: the one that fits the hole best tells its depth.
     double best_fit = std::numeric_limits<double>::infinity();
     for (std::uint32_t number = 0; number < patches_.size(); ++number) {
@@ -225,31 +233,39 @@ OpenLeaf OpeningFinder::find_open_leaf(const WallFace& face, const WallRectangle
             continue;
         }
         const LeafExtent& extent = extents_[number];
-        const double width = extent.end - extent.start;
-        if (extent.top > hole.top + 0.12 || extent.top < hole.top - 0.4) continue;
-        if (width > hole.width() + 0.15 || extent.top - extent.bottom < 0.5) continue;
-        // A part of the leaf may be hidden; of two leaves each has half of the hole.
-        const double share = hole.width() > widest_usual_leaf ? 0.4 : 0.6;
-        if (width < share * std::min(hole.width(), max_leaf_width)) continue;
+        if (extent.top > hole.top + max_above || extent.top < hole.top - 0.4) continue;
+        if (extent.top - extent.bottom < 0.5) continue;
+        // m along the wall and behind its face.
+        const auto in_plan = [&](double position) {
+            const Vector3d edge = position * extent.along + extent.across * patch.plane.normal;
+            return Vector2d(edge.dot(face.along), -face.plane.signed_distance(edge));
+        };
         // One end of the leaf is at the hinge.
         bool is_hinged = false;
         double nearest = max_hinge_gap;
         double depth = 0.0;
-        for (const double position : {extent.start, extent.end}) {
-            const Vector3d edge = position * extent.along + extent.across * patch.plane.normal;
+        double fit = 0.0;
+        for (const bool is_start : {true, false}) {
+            const Vector2d edge = in_plan(is_start ? extent.start : extent.end);
+            const Vector2d free_edge = in_plan(is_start ? extent.end : extent.start);
             for (const double side : {hole.start, hole.end}) {
-                const Vector3d jamb = place(face, side, 0.0);
-                const Vector3d offset = edge - jamb;
-                const double gap = (offset - offset.dot(up_) * up_).norm();
-                if (gap > nearest) continue;
+                const Vector2d jamb(side, std::clamp(edge.y(), 0.0, thickness));
+                const double gap = (edge - jamb).norm();
+                // A leaf has its hinges at the face that it opens to, or where its edge shows.
+                const Vector2d hinge(side, free_edge.y() < 0.5 * thickness ? 0.0 : thickness);
+                const double width =
+                    std::min((free_edge - hinge).norm(), (free_edge - edge).norm());
+                if (gap > nearest || width < min_width || width > hole.width() + width_slack)
+                    continue;
                 is_hinged = true;
                 nearest = gap;
-                depth = -face.plane.signed_distance(edge);
+                const bool has_lining = (free_edge - edge).norm() > hole.width() + width_slack;
+                depth = has_lining ? hinge.y() : edge.y();
+                fit = std::abs(width - widest);
             }
         }
         if (!is_hinged) continue;
         leaf.patches.push_back(number);
-        const double fit = std::abs(width - std::min(hole.width(), max_leaf_width));
         if (fit >= best_fit) continue;
         best_fit = fit;
         leaf.depth = depth;
@@ -319,8 +335,8 @@ std::optional<WallOpening> OpeningFinder::judge(std::size_t storey, std::size_t 
             opening.confidence = 0.7;
             return opening;
         }
-        OpenLeaf leaf = find_open_leaf(face, hole);
         const double thickness = thickness_at(rooms, face, hole).value_or(usual_thickness);
+        OpenLeaf leaf = find_open_leaf(face, hole, thickness);
         opening.leaf_patches = std::move(leaf.patches);
         opening.is_open = true;
         opening.depth =
@@ -359,7 +375,8 @@ std::optional<WallOpening> OpeningFinder::judge(std::size_t storey, std::size_t 
     // none of these.
     constexpr double min_sinking = 0.02;
     const bool is_glazed = evidence.lost >= min_lost || evidence.sunk() >= min_sinking ||
-                           shows_outdoors || is_guess || (relief.has_rays && evidence.through_share >= min_through);
+                           shows_outdoors || is_guess ||
+                           (relief.has_rays && evidence.through_share >= min_through);
     // A mirror shows what lies behind it without a frame in the wall, and as often as not where
     // another room is.
     constexpr double min_framed = 0.25;
@@ -386,7 +403,9 @@ void OpeningFinder::widen_to_hinge(const WallFace& face, WallRectangle& hole) co
         const LeafExtent& leaf = extents_[number];
         const double width = leaf.end - leaf.start;
         if (width < min_door_width || width > max_leaf_width) continue;
-        if (std::abs(leaf.top - hole.top) > 0.15 || leaf.top - leaf.bottom < 1.2) continue;
+        // A scanner beside it does not see its top.
+        if (leaf.top > hole.top + 0.15 || leaf.top < hole.top - 0.4) continue;
+        if (leaf.top - leaf.bottom < 1.2) continue;
         for (const double end : {leaf.start, leaf.end}) {
             const Vector3d hinge = end * leaf.along + leaf.across * patch.plane.normal;
             if (std::abs(face.plane.signed_distance(hinge)) > 0.2) continue;
