@@ -194,6 +194,21 @@ class OpeningTest {
         return opening_.components[1];
     }
 
+    /// Within an open leaf, which is a slab whose one side or other was seen.
+    bool is_in_open_leaf(const FacePlace& place) const {
+        if (place.above > static_cast<float>(leaf_.top) + edge_slack) return false;
+        const Eigen::Vector2f at(place.along, place.depth);
+        return std::any_of(opening_.open_leaves.begin(), opening_.open_leaves.end(),
+                           [&](const OpenLeafSide& side) {
+                               const Eigen::Vector2f hinge = side.hinge.cast<float>();
+                               const Eigen::Vector2f way = side.free_edge.cast<float>() - hinge;
+                               const float width = way.norm();
+                               const float along = way.dot(at - hinge) / width;
+                               return along >= 0.0F && along <= width + edge_slack &&
+                                      (hinge + along / width * way - at).norm() <= leaf_reach;
+                           });
+    }
+
     HolePoint place_in_hole(const Eigen::Vector3f& point) const {
         const FacePlace place = place_of(point);
         return {place.along - static_cast<float>(leaf_.start),
@@ -204,7 +219,8 @@ class OpeningTest {
     static constexpr float max_casing = 0.04F;    // m out of the wall
     static constexpr double hole_slack = 0.03;    // m: a hole is known to about a cell
     static constexpr double lining_width = 0.08;  // m, of what rays see of it aslant
-    static constexpr float leaf_reach = 0.06F;    // m: half of the leaf, its panels and noise
+    static constexpr float leaf_reach = 0.06F;    // m: of a leaf, its panels and noise
+    static constexpr float edge_slack = 0.03F;    // m: of an open leaf's edges
 
     static bool is_in(const WallRectangle& rectangle, const FacePlace& place) {
         return place.along >= rectangle.start && place.along <= rectangle.end &&
@@ -232,12 +248,11 @@ void label_openings(const PointCloud& map, const SurfaceSample& sample,
     tests.reserve(openings.openings.size());
     for (const WallOpening& opening : openings.openings)
         tests.emplace_back(opening, surfaces, up);
-    // The open leaves, by voxel.
-    std::vector<std::int32_t> leaf_of_voxel(sample.cloud.size(), -1);
+    std::vector<bool> is_of_leaf(sample.cloud.size(), false);
     for (const WallOpening& opening : openings.openings) {
-        for (const std::uint32_t patch : opening.leaf_patches) {
-            for (const std::uint32_t voxel : patches[patch].points)
-                leaf_of_voxel[voxel] = static_cast<std::int32_t>(opening.components[0]);
+        for (const OpenLeafSide& side : opening.open_leaves) {
+            for (const std::uint32_t voxel : patches[side.patch].points)
+                is_of_leaf[voxel] = true;
         }
     }
     const auto give = [&](std::size_t point, std::size_t number) {
@@ -245,6 +260,10 @@ void label_openings(const PointCloud& map, const SurfaceSample& sample,
         labels.labels[point] = component.label;
         labels.instances[point] = component.instance;
         labels.confidences[point] = static_cast<float>(component.confidence);
+    };
+    const auto find_test = [&](const auto& holds) -> const OpeningTest* {
+        const auto found = std::find_if(tests.begin(), tests.end(), holds);
+        return found == tests.end() ? nullptr : &*found;
     };
     std::vector<std::vector<WindowPoint>> at_windows((map.size() + chunk - 1) / chunk);
     parallel_for(context, map.size(), chunk, [&](std::size_t begin, std::size_t end) {
@@ -254,22 +273,31 @@ void label_openings(const PointCloud& map, const SurfaceSample& sample,
             const bool is_level =
                 labels.labels[i] == Label::floor || labels.labels[i] == Label::ceiling;
             if (is_level) continue;
-            if (leaf_of_voxel[voxel] >= 0) {
-                give(i, static_cast<std::size_t>(leaf_of_voxel[voxel]));
+            const auto in_leaf = [&](const OpeningTest& test) {
+                return test.is_in_open_leaf(test.place_of(map.positions[i]));
+            };
+            // Seen sides of open leaves, then what is in the wall, then edges of leaves.
+            const OpeningTest* door = nullptr;
+            if (is_of_leaf[voxel]) door = find_test(in_leaf);
+            if (door != nullptr) {
+                give(i, door->opening().components[0]);
                 continue;
             }
-            for (std::size_t t = 0; t < tests.size(); ++t) {
+            bool is_given = false;
+            for (std::size_t t = 0; t < tests.size() && !is_given; ++t) {
                 const FacePlace place = tests[t].place_of(map.positions[i]);
                 if (!tests[t].reaches(place)) continue;
                 if (tests[t].opening().type == OpeningType::window) {
                     at_windows[begin / chunk].push_back({i, t});
-                    break;
+                    is_given = true;
+                } else if (const auto component = tests[t].component_of(place)) {
+                    give(i, *component);
+                    is_given = true;
                 }
-                const auto component = tests[t].component_of(place);
-                if (!component) continue;
-                give(i, *component);
-                break;
             }
+            if (is_given || labels.labels[i] != Label::unknown) continue;
+            door = find_test(in_leaf);
+            if (door != nullptr) give(i, door->opening().components[0]);
         }
     });
     // What of a window is frame and what is pane is told by all of its points together.

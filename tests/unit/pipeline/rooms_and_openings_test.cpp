@@ -129,6 +129,27 @@ TEST_P(TwoRooms, HaveOneDoorAndTwoWindowsThatAreWhereTheyBelong) {
 
 INSTANTIATE_TEST_SUITE_P(Turned, TwoRooms, testing::Values(1, 2, 3));
 
+TEST(InterpretMap, AnOpenLeafIsTheDoorsWhereTheLiningGoesOnInItsPlane) {
+    Scenario scenario = scenario_from_json(two_rooms);
+    OpeningPlan& door = scenario.openings[0];
+    door.leaf = LeafState::open;
+    door.leaf_angle = 90.0;
+    door.recess = 0.0;
+    const SimulatedScene truth = simulate_scene(scenario);
+    Reconstruction found;
+    found.map = truth.truth.map;
+    interpret_map(found);
+    std::size_t count = 0;
+    std::size_t right = 0;
+    for (std::size_t i = 0; i < truth.truth.labels.size(); ++i) {
+        if (truth.truth.labels[i] != Label::door) continue;
+        ++count;
+        right += found.labels.labels[i] == Label::door ? 1 : 0;
+    }
+    EXPECT_GT(count, 1000U);
+    EXPECT_GE(static_cast<double>(right), 0.9 * static_cast<double>(count));
+}
+
 TEST(InterpretMap, ADoorWhoseLintelNobodySawHasTheUsualHeight) {
     const SimulatedScene truth = simulate_scene(scenario_from_json(R"({
       "rooms": [ { "name": "hall", "use": "corridor", "ceiling_height": 2.7,

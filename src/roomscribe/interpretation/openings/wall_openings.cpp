@@ -77,12 +77,6 @@ struct LeafExtent {
     double top = 0.0;
 };
 
-/// A leaf that stands open.
-struct OpenLeaf {
-    std::vector<std::uint32_t> patches;
-    double depth = 0.0;  ///< m behind the wall's face, of its hinges
-};
-
 /// What was found in one wall.
 struct OpenedWall {
     std::vector<WallOpening> openings;
@@ -129,8 +123,8 @@ class OpeningFinder {
     WallFace reach_to_corners(const StoreyLayout& rooms, const WallFace& face) const;
     LeafExtent extent_of(const PlanarPatch& patch) const;
     void widen_to_hinge(const WallFace& face, WallRectangle& hole) const;
-    OpenLeaf find_open_leaf(const WallFace& face, const WallRectangle& hole,
-                            double thickness) const;
+    std::vector<OpenLeafSide> find_open_leaves(const WallFace& face, const WallRectangle& hole,
+                                               double thickness) const;
     std::optional<double> thickness_at(const StoreyLayout& layout, const WallFace& face,
                                        const WallRectangle& hole) const;
     void add_flat_doors(std::size_t storey, std::size_t face, const WallRelief& relief,
@@ -209,20 +203,20 @@ LeafExtent OpeningFinder::extent_of(const PlanarPatch& patch) const {
     return extent;
 }
 
-/// The patches of a leaf that stands open in a wall of a thickness: upright, as wide and high as
-/// the hole, with one upright edge at a side of it. The lining of that side, as deep as the wall,
-/// may go on in the leaf's plane.
-OpenLeaf OpeningFinder::find_open_leaf(const WallFace& face, const WallRectangle& hole,
-                                       double thickness) const {
+/// What shows of leaves that stand open in a wall of a thickness, the one that fits the hole best
+/// first: upright patches, as wide and high as the hole, with one upright edge at a side of it. The
+/// lining of that side, as deep as the wall, may go on in the leaf's plane.
+std::vector<OpenLeafSide> OpeningFinder::find_open_leaves(const WallFace& face,
+                                                          const WallRectangle& hole,
+                                                          double thickness) const {
     constexpr double max_hinge_gap = 0.25;
-    constexpr double width_slack = 0.15;
-    constexpr double max_above = 0.2;  // casings are to 0.1 wide
-    OpenLeaf leaf;
+    constexpr double max_above = 0.2;  // m: casings are to 0.1 wide
+    constexpr double edge_error = 0.05;
+    std::vector<OpenLeafSide> sides;
     // Of two leaves each has half of the hole, and a part of a leaf may be hidden.
     const double widest = std::min(hole.width(), max_leaf_width);
     const double min_width = (hole.width() > widest_usual_leaf ? 0.4 : 0.6) * widest;
-    // Cupboards beside a door look like leaves: the one that fits the hole best tells its depth.
-    double best_fit = std::numeric_limits<double>::infinity();
+    const double max_width = hole.width() + 3.0 * edge_error;
     for (std::uint32_t number = 0; number < patches_.size(); ++number) {
         const PlanarPatch& patch = patches_[number];
         if (!is_upright(patch)) continue;
@@ -233,44 +227,40 @@ OpenLeaf OpeningFinder::find_open_leaf(const WallFace& face, const WallRectangle
             continue;
         }
         const LeafExtent& extent = extents_[number];
+        const double width = extent.end - extent.start;
         if (extent.top > hole.top + max_above || extent.top < hole.top - 0.4) continue;
         if (extent.top - extent.bottom < 0.5) continue;
-        // m along the wall and behind its face.
         const auto in_plan = [&](double position) {
             const Vector3d edge = position * extent.along + extent.across * patch.plane.normal;
             return Vector2d(edge.dot(face.along), -face.plane.signed_distance(edge));
         };
         // One end of the leaf is at the hinge.
-        bool is_hinged = false;
         double nearest = max_hinge_gap;
-        double depth = 0.0;
-        double fit = 0.0;
+        std::optional<OpenLeafSide> leaf;
         for (const bool is_start : {true, false}) {
             const Vector2d edge = in_plan(is_start ? extent.start : extent.end);
             const Vector2d free_edge = in_plan(is_start ? extent.end : extent.start);
             for (const double side : {hole.start, hole.end}) {
-                const Vector2d jamb(side, std::clamp(edge.y(), 0.0, thickness));
-                const double gap = (edge - jamb).norm();
-                // A leaf has its hinges at the face that it opens to, or where its edge shows.
+                const double gap =
+                    (edge - Vector2d(side, std::clamp(edge.y(), 0.0, thickness))).norm();
+                // From the hinges where they belong, at the face that the leaf opens to.
                 const Vector2d hinge(side, free_edge.y() < 0.5 * thickness ? 0.0 : thickness);
-                const double width =
-                    std::min((free_edge - hinge).norm(), (free_edge - edge).norm());
-                if (gap > nearest || width < min_width || width > hole.width() + width_slack)
-                    continue;
-                is_hinged = true;
+                const double reach = std::min((free_edge - hinge).norm(), width);
+                if (gap > nearest || reach < min_width || reach > max_width) continue;
                 nearest = gap;
-                const bool has_lining = (free_edge - edge).norm() > hole.width() + width_slack;
-                depth = has_lining ? hinge.y() : edge.y();
-                fit = std::abs(width - widest);
+                const double share = std::min(1.0, (hole.width() + edge_error) / width);
+                leaf = {number, free_edge + share * (edge - free_edge), free_edge};
             }
         }
-        if (!is_hinged) continue;
-        leaf.patches.push_back(number);
-        if (fit >= best_fit) continue;
-        best_fit = fit;
-        leaf.depth = depth;
+        if (leaf) sides.push_back(*leaf);
     }
-    return leaf;
+    // Cupboards beside a door look like leaves.
+    const auto misfit = [&](const OpenLeafSide& side) {
+        return std::abs((side.free_edge - side.hinge).norm() - widest);
+    };
+    std::stable_sort(sides.begin(), sides.end(),
+                     [&](const auto& a, const auto& b) { return misfit(a) < misfit(b); });
+    return sides;
 }
 
 std::optional<WallOpening> OpeningFinder::judge(std::size_t storey, std::size_t number,
@@ -336,14 +326,14 @@ std::optional<WallOpening> OpeningFinder::judge(std::size_t storey, std::size_t 
             return opening;
         }
         const double thickness = thickness_at(rooms, face, hole).value_or(usual_thickness);
-        OpenLeaf leaf = find_open_leaf(face, hole, thickness);
-        opening.leaf_patches = std::move(leaf.patches);
+        opening.open_leaves = find_open_leaves(face, hole, thickness);
         opening.is_open = true;
-        opening.depth =
-            opening.leaf_patches.empty() ? 0.5 * thickness : std::clamp(leaf.depth, 0.0, thickness);
+        opening.depth = opening.open_leaves.empty()
+                            ? 0.5 * thickness
+                            : std::clamp(opening.open_leaves.front().hinge.y(), 0.0, thickness);
         opening.rule = "hole of a door's size in the wall and its open leaf";
         opening.confidence = 0.85;
-        if (opening.leaf_patches.empty()) {
+        if (opening.open_leaves.empty()) {
             // Double doors are rarer than wide passages, and show a leaf more easily.
             const bool is_wide = hole.width() > widest_usual_leaf;
             opening.type = is_wide ? OpeningType::passage : OpeningType::door;

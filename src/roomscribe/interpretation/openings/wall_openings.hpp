@@ -24,6 +24,14 @@ enum class OpeningType : std::uint8_t {
     passage,  ///< a way without a leaf: a component of kind `opening`
 };
 
+/// What an upright patch shows of a leaf that stands open. Places: m along the wall's face, m
+/// behind it.
+struct OpenLeafSide {
+    std::uint32_t patch = 0;
+    Eigen::Vector2d hinge = Eigen::Vector2d::Zero();
+    Eigen::Vector2d free_edge = Eigen::Vector2d::Zero();
+};
+
 /// A hole in a wall, and what fills it.
 struct WallOpening {
     OpeningType type = OpeningType::door;
@@ -35,8 +43,7 @@ struct WallOpening {
     double frame_width = 0.0;  ///< m; around a leaf, within a window's hole; 0 for none
     bool is_open = false;      ///< a door that stands open
     bool is_pane = false;      ///< a door of which one pane was told
-    /// Of an open door, the patches of its leaf.
-    std::vector<std::uint32_t> leaf_patches;
+    std::vector<OpenLeafSide> open_leaves;  ///< of an open door
     std::int32_t room_behind = no_room;
     double coverage = 0.0;  ///< share of the hole that was seen into
     double hidden = 0.0;    ///< share that something stands before
