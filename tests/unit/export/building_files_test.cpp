@@ -337,6 +337,22 @@ TEST(Schedules, HaveARowAThing) {
     }
 }
 
+TEST(Ifc, HasOneHoleInADoorwayWhoseDoorIsGone) {
+    Scene scene = flat_of_two_rooms();
+    for (Component& component : scene.components) {
+        if (component.id != "door-1") continue;
+        component.label = Label::unknown;
+        component.kind = "opening";
+    }
+    const Building building = describe_building(scene);
+    EXPECT_EQ(building.openings.size(), 2U);
+    const std::string ifc = building_to_ifc(building);
+    EXPECT_EQ(count(ifc, "=IFCOPENINGELEMENT("), 2U);
+    EXPECT_EQ(count(ifc, "=IFCDOOR("), 0U);
+    EXPECT_NEAR(area_of(parse_glb(building_to_glb(building)), "door_frame-1"), 0.9 * 2.05 - 1.6,
+                1e-5);
+}
+
 TEST(SceneGraph, RunsFromStoreyToHandle) {
     const Json graph = Json::parse(building_to_graph(flat()));
     std::map<std::string, std::string> holder;
