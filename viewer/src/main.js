@@ -137,7 +137,7 @@ class Viewer {
     const ids = new Set([...model.components, ...model.rooms].map(({ id }) => id));
     this.rows = linkRows(ids, (id) => this.choose(id, true));
     this.panel = new ElementPanel(model, {
-      choose: (id, goThere) => this.choose(id, goThere), show: (id) => this.goTo(id), row: (id) => this.rows.get(id),
+      choose: (id, goThere) => this.choose(id, goThere), show: (id) => this.goTo(id), row: (id) => this.rows.get(id)?.[0],
     });
     this.controls = makeControls(model, state, this.cloud.heights, () => this.apply());
     const side = make("div", { class: "v-side" }, this.panel.element, this.controls);
