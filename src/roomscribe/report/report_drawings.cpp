@@ -235,6 +235,15 @@ class ElevationDrawing {
     std::string shapes_;
 };
 
+/// "room-1, 12.00 m2; room-2, 9.00 m2"
+std::string rooms_in_words(const Scene& scene) {
+    std::string words;
+    for (const Room& room : scene.rooms) {
+        words += fmt::format("{}{}, {:.2f} m\u00b2", words.empty() ? "" : "; ", room.id, room.area);
+    }
+    return words;
+}
+
 }  // namespace
 
 Building listed_building(const Scene& scene) {
@@ -251,8 +260,11 @@ std::string floor_plan_drawing(const Scene& scene) {
     return fmt::format(
         "<figure>\n<figcaption><strong>Floor plan</strong><span>1:50 on paper, lengths in metres. "
         "<code>roomscribe export</code> gives it as SVG and DXF.</span></figcaption>\n"
-        "<img class=\"drawing\" alt=\"Floor plan with dimensions\" "
-        "src=\"data:image/svg+xml;base64,{}\"/>\n</figure>\n",
+        "<div class=\"scroll sheet\" tabindex=\"0\" role=\"group\" aria-label=\"Floor plan, "
+        "scrolls sideways\"><img "
+        "class=\"drawing\" alt=\"Floor plan of {}: {}\" "
+        "src=\"data:image/svg+xml;base64,{}\"/></div>\n</figure>\n",
+        counted(scene.rooms.size(), "room"), escape_html(rooms_in_words(scene)),
         encode_base64(std::as_bytes(std::span(svg))));
 }
 

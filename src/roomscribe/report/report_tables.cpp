@@ -264,7 +264,7 @@ std::string derived_values_table(const Reconstruction& reconstruction) {
         table.html(fmt::format("<code>{}</code>", escape_html(derived.name)));
         table.html(fmt::format("{:.4g} {}", derived.value, escape_html(derived.unit)),
                    fmt::format("{}", derived.value));
-        table.text(derived.reason);
+        table.html(fmt::format("<div class=\"wide\">{}</div>", escape_html(derived.reason)));
     }
     return table.finish();
 }
