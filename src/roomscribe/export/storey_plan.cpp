@@ -285,7 +285,7 @@ class PlanDrawer {
         std::optional<std::pair<double, Interval>> best;
         int least = std::numeric_limits<int>::max();
         const Eigen::Vector2d half =
-            turned({label_half_width, label_half_height + dimension_height});
+            turned({label_half_width, label_half_height + 2.0 * dimension_height});
         for (const auto& [y, line] : lines) {
             if (!is_about(line.to - line.from, usual)) continue;
             int cost = std::abs(turned(label).y() - y) < half.y() ? 100 : 0;

@@ -25,6 +25,11 @@ std::string room_name(const Building& building, std::size_t component) {
     return room ? building.scene.rooms[*room].id : none;
 }
 
+/// On one line.
+void put_name(HtmlTable& table, const std::string& name) {
+    table.html(fmt::format("<span class=\"nowrap\">{}</span>", escape_html(name)));
+}
+
 std::string motion_of(const Component& component) {
     return component.opens ? std::string(motion_kind_name(component.opens->kind)) : none;
 }
@@ -69,7 +74,7 @@ std::string openings_table(const Scene& scene) {
         table.html(escape_html(component.id), component.id);
         table.html(fmt::format("<span class=\"nowrap\"><i class=\"swatch label-{}\"></i>{}</span>",
                                label_name(component.label), escape_html(what_of(component))));
-        table.text(room_name(building, i));
+        put_name(table, room_name(building, i));
         table.number(size.width, 3);
         table.number(size.height, 3);
         table.number(lowest - floor_below(building, i), 3);
@@ -102,10 +107,9 @@ std::string handles_table(const Scene& scene) {
         if (component.label != Label::handle) continue;
         table.begin_row();
         table.html(escape_html(component.id), component.id);
-        table.html(
-            fmt::format("<span class=\"nowrap\">{}</span>", escape_html(what_of(component))));
-        table.text(component.parent.empty() ? none : component.parent);
-        table.text(room_name(building, i));
+        put_name(table, what_of(component));
+        put_name(table, component.parent.empty() ? none : component.parent);
+        put_name(table, room_name(building, i));
         const auto& grasp = component.grasp;
         for (const Eigen::Index axis : {0, 1, 2})
             table.number(grasp ? std::optional(grasp->position(axis)) : std::nullopt, 3);
