@@ -277,6 +277,7 @@ try {
   await page.emulateMediaFeatures([{ name: "prefers-color-scheme", value: "dark" }]);
   assert.deepEqual(await checkContrast(page), []);
   await run("document.activeElement.blur()");
+  await run("document.querySelector('.v-side').scrollTop = 0");  // Tab went down there
   await run("document.getElementById('viewer').scrollIntoView()");
   await tool("Show all");
   await rest();
