@@ -56,7 +56,7 @@ const tool = (text) => run(`[...document.querySelectorAll(".v-tools button")].fi
 const viewer = "window.roomscribeViewer";
 
 try {
-  await page.goto(url, { waitUntil: "load", timeout: 90_000 });
+  await page.goto(url, { waitUntil: "load" });
   await page.waitForFunction(`${viewer} && (${viewer}.isReady || ${viewer}.failed)`, { timeout: 90_000 });
   assert.equal(await run(`${viewer}.failed ?? ""`), "");
   await run("document.getElementById('viewer').scrollIntoView()");
