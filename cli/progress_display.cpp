@@ -67,7 +67,8 @@ void ProgressDisplay::draw_bar(double fraction) const {
     std::string left;
     // Too early a guess would only jump about.
     if (fraction > 0.05 && spent > 0.5) {
-        left = fmt::format(", {:.0f} %/s, {:.0f} s left", 100.0 * fraction / spent,
+        const double rate = 100.0 * fraction / spent;
+        left = fmt::format(", {:.{}f} %/s, {:.0f} s left", rate, rate < 10.0 ? 1 : 0,
                            spent * (1.0 - fraction) / fraction);
     }
     const int filled = static_cast<int>(fraction * width);

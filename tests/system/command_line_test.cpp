@@ -87,6 +87,21 @@ TEST(CommandLine, ReportsProgressAsJsonLines) {
     EXPECT_GT(num_stages, 0);
 }
 
+TEST(CommandLine, ShowsStageRateAndTimeLeftOnATerminal) {
+    const std::filesystem::path script = "/usr/bin/script";
+    if (!std::filesystem::exists(script)) GTEST_SKIP() << "script(1) is not installed";
+    const TemporaryFolder folder;
+    std::string command = ROOMSCRIBE_PROGRAM " run -o " + (folder / "out").string();
+    for (const std::string& scan : write_room_scans(folder.path(), 3))
+        command += " " + scan;
+    const ProgramResult result = run_program(script, {"-qec", command, "/dev/null"});
+    EXPECT_EQ(result.exit_code, 0) << result.out;
+    EXPECT_THAT(result.out, testing::ContainsRegex("\\[#+\\.+\\] register [0-9]+ %"));
+    EXPECT_THAT(result.out, testing::ContainsRegex("[0-9.]+ %/s, [0-9]+ s left"));
+    // The bar is gone at the end, the table of results stays.
+    EXPECT_THAT(result.out, testing::ContainsRegex("\r.\\[Kscan +points +placed"));
+}
+
 TEST(CommandLine, IsQuietOnStderrWhenItIsNoTerminal) {
     const TemporaryFolder folder;
     const std::string scan = write_room_scans(folder.path(), 1).front();

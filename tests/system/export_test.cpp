@@ -1,11 +1,17 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
+#include <Eigen/Core>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "roomscribe/export/json.hpp"
 #include "roomscribe/io/point_cloud_io.hpp"
@@ -71,30 +77,105 @@ TEST_F(Export, SaysWhatIsWrong) {
     EXPECT_FALSE(fs::exists(folder_ / "model.ifc"));
 }
 
-/// Reads model.ifc and model.glb with programs that are not ours, and compares with scene.json.
-void read_with_others(const fs::path& folder) {
-    const ProgramResult written =
-        roomscribe({"export", folder.string(), "--to", "ifc", "--to", "glb"});
-    ASSERT_EQ(written.exit_code, 0) << written.err;
+/// Reads what was exported with programs that are not ours; empty where they are not installed.
+std::optional<ProgramResult> read_with_others(const fs::path& folder) {
     const fs::path node = ROOMSCRIBE_NODE;
-    if (!fs::exists(node)) GTEST_SKIP() << "node is not installed";
-    const ProgramResult read =
+    if (!fs::exists(node)) return std::nullopt;
+    ProgramResult read =
         run_program(node, {ROOMSCRIBE_READERS "/read_exports.mjs", folder.string()});
     constexpr int not_installed = 77;
-    if (read.exit_code == not_installed) GTEST_SKIP() << read.out;
-    EXPECT_EQ(read.exit_code, 0) << read.out << read.err;
+    if (read.exit_code == not_installed) return std::nullopt;
+    return read;
 }
+
+void export_all(const fs::path& folder) {
+    const ProgramResult written =
+        roomscribe({"export", folder.string(), "--to", "ifc,glb,svg,dxf,csv,graph"});
+    ASSERT_EQ(written.exit_code, 0) << written.err;
+}
+
+constexpr const char* no_readers = "node or the readers are not installed: ./dev readers";
 
 TEST_F(Export, IsReadByOthersAsTheSceneSays) {
-    read_with_others(folder_.path());
+    export_all(folder_.path());
+    const auto read = read_with_others(folder_.path());
+    if (!read) GTEST_SKIP() << no_readers;
+    EXPECT_EQ(read->exit_code, 0) << read->out << read->err;
 }
 
-TEST(ExportOfASimulatedFlat, IsReadByOthersAsTheSceneSays) {
-    const TemporaryFolder folder;
-    ASSERT_EQ(roomscribe({"simulate", "flat", "--coarseness", "12", "-o", folder.path().string()})
-                  .exit_code,
-              0);
-    read_with_others(folder / "truth");
+/// A simulated flat as its truth has it, exported.
+class ExportOfASimulatedFlat : public testing::Test {
+  protected:
+    ExportOfASimulatedFlat() {
+        EXPECT_EQ(
+            roomscribe({"simulate", "flat", "--coarseness", "12", "-o", folder_.path().string()})
+                .exit_code,
+            0);
+        export_all(truth());
+    }
+    fs::path truth() const { return folder_ / "truth"; }
+
+    TemporaryFolder folder_;
+};
+
+TEST_F(ExportOfASimulatedFlat, IsReadByOthersAsTheSceneSays) {
+    const auto read = read_with_others(truth());
+    if (!read) GTEST_SKIP() << no_readers;
+    EXPECT_EQ(read->exit_code, 0) << read->out << read->err;
+}
+
+/// Moves the side between the two middle corners of the first component of a label outwards along
+/// the first edge by 2 mm.
+void widen_first(const fs::path& folder, const std::string& label) {
+    nlohmann::ordered_json scene = nlohmann::ordered_json::parse(read_bytes(folder / "scene.json"));
+    for (auto& component : scene.at("components")) {
+        if (component.at("label") != label) continue;
+        auto corners = component.at("polygon").get<std::vector<std::array<double, 3>>>();
+        ASSERT_EQ(corners.size(), 4U);
+        const Eigen::Vector3d along = (Eigen::Map<Eigen::Vector3d>(corners[1].data()) -
+                                       Eigen::Map<Eigen::Vector3d>(corners[0].data()))
+                                          .normalized();
+        for (const std::size_t i : {1U, 2U})
+            Eigen::Map<Eigen::Vector3d>(corners[i].data()) += 0.002 * along;
+        component.at("polygon") = corners;
+        break;
+    }
+    std::ofstream(folder / "scene.json") << scene;
+}
+
+TEST_F(ExportOfASimulatedFlat, IsSeenToBeOffByTwoMillimetres) {
+    const std::string scene = read_bytes(truth() / "scene.json");
+    for (const auto& [label, files] :
+         {std::pair{"door", std::vector<std::string>{"model.ifc", "model.glb", "plan.svg",
+                                                     "plan.dxf", "doors.csv", "graph.json"}},
+          std::pair{"window", std::vector<std::string>{"model.ifc", "model.glb", "plan.svg",
+                                                       "plan.dxf", "windows.csv", "graph.json"}},
+          std::pair{"wall", std::vector<std::string>{"model.ifc", "model.glb", "plan.svg",
+                                                     "plan.dxf", "walls.csv", "graph.json"}}}) {
+        std::ofstream(truth() / "scene.json") << scene;
+        widen_first(truth(), label);
+        const auto read = read_with_others(truth());
+        if (!read) GTEST_SKIP() << no_readers;
+        EXPECT_EQ(read->exit_code, 1);
+        for (const std::string& file : files) {
+            EXPECT_THAT(read->err,
+                        testing::ContainsRegex(file + ": " + label + "-[0-9]+: .*[Ww]idth"));
+        }
+    }
+}
+
+TEST_F(ExportOfASimulatedFlat, IsSeenToLackARoom) {
+    nlohmann::ordered_json scene =
+        nlohmann::ordered_json::parse(read_bytes(truth() / "scene.json"));
+    scene.at("rooms").erase(0);
+    std::ofstream(truth() / "scene.json") << scene;
+    const auto read = read_with_others(truth());
+    if (!read) GTEST_SKIP() << no_readers;
+    EXPECT_EQ(read->exit_code, 1);
+    for (const char* file :
+         {"model.ifc", "model.glb", "plan.svg", "plan.dxf", "rooms.csv", "graph.json"}) {
+        EXPECT_THAT(read->err, testing::ContainsRegex(std::string(file) + ": (rooms|rows): "));
+    }
 }
 
 TEST(ExportOfPoints, GivesEveryPointOnce) {

@@ -31,6 +31,7 @@ export async function openPage(options = {}) {
     : ["--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--ignore-gpu-blocklist"];
   const browser = await puppeteer.launch({ executablePath, headless: true, protocolTimeout: 100_000, args: ["--no-sandbox", ...graphics] });
   const page = await browser.newPage();
+  page.setDefaultNavigationTimeout(90_000);  // a busy machine draws the first picture late
   await page.setViewport({ width: 900, height: 620, ...options.viewport });
   await page.emulateMediaFeatures([
     { name: "prefers-reduced-motion", value: "reduce" },

@@ -6,6 +6,7 @@ import assert from "node:assert/strict";
 import { mkdirSync, readFileSync, writeFileSync } from "node:fs";
 import { join, resolve } from "node:path";
 import { pathToFileURL } from "node:url";
+import { checkAccessibility, checkContrast } from "./accessibility.mjs";
 import { openPage } from "./browser.mjs";
 import { compare, describePicture, differenceOf } from "./pictures.mjs";
 
@@ -134,6 +135,16 @@ try {
   }
   assert.equal(await run(`${rowOf(wall.id)}.closest("tr").getAttribute("aria-current")`), "true");
   await shoot("chosen");
+  const action = (text) => run(`[...document.querySelectorAll(".v-actions button")].find((e) => e.textContent === ${JSON.stringify(text)}).click()`);
+  await tool("Show all");
+  await rest();
+  await changes("to go there", () => action("Go there"));
+  await action("In the table");
+  assert.equal(await run("document.activeElement.textContent"), wall.id);
+  await run("document.getElementById('viewer').scrollIntoView()");
+  await action("Let go");
+  assert.equal(await run(`${viewer}.state.selected`), null);
+  await rest();
   await tool("From above");
   await rest();
   const floorPlace = await run(`(() => { const v = ${viewer}; const r = v.model.rooms[0]; const { width, height } = v.canvas.getBoundingClientRect();
@@ -217,13 +228,57 @@ try {
     await rest();
   });
 
-  // Every control has a name, and the tab key reaches it.
-  const nameless = await run(`[...document.querySelectorAll("#viewer :is(button, input, select, canvas, [role=slider])")]
-    .filter((e) => !(e.labels?.length || e.getAttribute("aria-label") || e.textContent.trim())).map((e) => e.outerHTML)`);
-  assert.deepEqual(nameless, []);
+  // The view alone on the screen, and back.
+  await page.click(".v-tools button:last-of-type");
+  await page.waitForFunction("document.fullscreenElement?.id === 'viewer'", { timeout: 10_000 });
+  await rest();
+  await page.click(".v-tools button:last-of-type");
+  await page.waitForFunction("!document.fullscreenElement", { timeout: 10_000 });
+  await tool("Show all");
+  await rest();
+
+  // Each column of each table sorts its rows, up and down, and says so.
+  const unsorted = await page.evaluate(() => {
+    const wrong = [];
+    for (const table of document.querySelectorAll("main table")) {
+      [...table.tHead.rows[0].cells].forEach((head, column) => {
+        for (const way of ["ascending", "descending"]) {
+          head.querySelector("button").click();
+          const cells = [...table.tBodies[0].rows].map((row) => row.cells[column]).filter((cell) => cell.textContent !== "\u2013");
+          const keys = cells.map((cell) => cell.dataset.sort ?? cell.textContent);
+          const areNumbers = keys.every((key) => !Number.isNaN(Number(key)));
+          const order = (a, b) => (areNumbers ? Number(a) - Number(b) : a.localeCompare(b, "en", { numeric: true }));
+          const isInOrder = keys.every((key, i) => i === 0 || (way === "ascending" ? order(keys[i - 1], key) <= 0 : order(keys[i - 1], key) >= 0));
+          if (head.getAttribute("aria-sort") !== way || !isInOrder) wrong.push(`${head.textContent} ${way}`);
+        }
+      });
+    }
+    return wrong;
+  });
+  assert.deepEqual(unsorted, []);
+
+  // For those who do not see it or have no mouse.
+  const access = await checkAccessibility(page);
+  assert.deepEqual(access.complaints, []);
+  assert.ok(access.tabs > 40, "Tab meets " + access.tabs);
+  await tool("Walk");
+  await page.focus(".v-stage canvas");
+  await page.keyboard.press("Tab");
+  assert.notEqual(await run("document.activeElement.tagName"), "CANVAS", "a walk keeps the Tab key");
+  await page.focus(".v-stage canvas");
+  await page.keyboard.down("Shift");
+  await page.keyboard.press("Tab");
+  await page.keyboard.up("Shift");
+  assert.notEqual(await run("document.activeElement.tagName"), "CANVAS", "the view keeps the Tab key");
+  await tool("Show all");
+  await rest();
 
   // Dark, and on a telephone.
   await page.emulateMediaFeatures([{ name: "prefers-color-scheme", value: "dark" }]);
+  assert.deepEqual(await checkContrast(page), []);
+  await run("document.activeElement.blur()");
+  await run("document.querySelector('.v-side').scrollTop = 0");  // Tab went down there
+  await run("document.getElementById('viewer').scrollIntoView()");
   await tool("Show all");
   await rest();
   await shoot("dark");
@@ -232,6 +287,40 @@ try {
   assert.ok(await run("document.documentElement.scrollWidth <= innerWidth + 1"), "the page is wider than a telephone");
   await run("document.getElementById('viewer').scrollIntoView()");
   await shoot("telephone");
+
+  // By touch: one finger turns once the picture was touched, two zoom, and a pad walks.
+  const fingers = await page.createCDPSession();
+  const touch = (type, ...points) => fingers.send("Input.dispatchTouchEvent", { type, touchPoints: points.map(([x, y], id) => ({ x, y, id })) });
+  const slideFingers = async (from, to) => {
+    await touch("touchStart", ...from);
+    for (let k = 1; k <= 4; ++k) await touch("touchMove", ...from.map(([x, y], i) => [x + (to[i][0] - x) * k / 4, y + (to[i][1] - y) * k / 4]));
+    await touch("touchEnd");
+    await rest();
+  };
+  const [left, top] = await run("(() => { const { left, top } = document.querySelector('.v-stage canvas').getBoundingClientRect(); return [left, top]; })()");
+  await page.focus(".v-stage canvas");
+  await moves("one finger", () => slideFingers([[left + 120, top + 150]], [[left + 220, top + 170]]));
+  await moves("two fingers", () => slideFingers([[left + 120, top + 150], [left + 220, top + 150]], [[left + 70, top + 150], [left + 270, top + 150]]));
+  await tool("Walk");
+  await rest();
+  const pad = await run(`[...document.querySelectorAll(".v-pad button")].map((e) => { const { left, top, width, height } = e.getBoundingClientRect(); return [left + width / 2, top + height / 2, width, height]; })`);
+  assert.equal(pad.length, 4);
+  for (const [x, y, width, height] of pad) {
+    assert.ok(width >= 40 && height >= 40, "a finger is wider than " + width);
+    await moves("the pad", async () => {
+      await touch("touchStart", [x, y]);
+      await new Promise((done) => setTimeout(done, 300));
+      await touch("touchEnd");
+      await rest();
+    });
+  }
+  await moves("the pad by key", async () => {
+    await page.focus(".v-pad button");
+    await page.keyboard.press("Enter");
+    await new Promise((done) => setTimeout(done, 400));
+    await rest();
+  });
+  await fingers.detach();
   assert.deepEqual(complaints, []);
   if (kept) {
     // What is told apart at all: else nothing could be told to be wrong.

@@ -55,7 +55,7 @@ class Viewer {
       points: true, faces: model.components.length > 0, edges: true, grasps: true, scanners: true, roomNames: true,
       ceilingOff: true, nearWallsOff: true, cut: Infinity, size: 1, hiddenLabels: new Set(), hiddenRooms: new Set(), selected: null, measures: false,
     };
-    this.canvas = make("canvas", { tabindex: 0, role: "img", "aria-label": this.#describe(), "aria-describedby": "v-help" });
+    this.canvas = make("canvas", { tabindex: 0, role: "application", "aria-roledescription": "3D view", "aria-label": this.#describe(), "aria-describedby": "v-keys" });
     this.renderer = new THREE.WebGLRenderer({ canvas: this.canvas, antialias: true, alpha: true, preserveDrawingBuffer: true });
     this.renderer.outputColorSpace = THREE.LinearSRGBColorSpace;
     this.renderer.localClippingEnabled = true;
@@ -119,14 +119,18 @@ class Viewer {
     this.message = make("p", { class: "v-message", role: "status" }, "Unpacking points \u2026");
     this.split = make("div", { class: "v-split", role: "slider", tabindex: 0, "aria-label": "Border between input and result", "aria-valuemin": 0, "aria-valuemax": 100 });
     this.sideNames = [make("span", { class: "v-side-name" }, "Input"), make("span", { class: "v-side-name" }, "Result")];
-    const press = (code) => ({ onpointerdown: () => this.navigation.hold(code), onpointerup: () => this.navigation.release(code), onpointerleave: () => this.navigation.release(code), type: "button" });
+    this.keys = make("span", { class: "v-hidden", id: "v-keys" });
+    // A press by key or by a screen reader has no length: it is a step.
+    const step = (code) => { this.navigation.hold(code); setTimeout(() => this.navigation.release(code), 300); };
+    const press = (code) => ({ onpointerdown: () => this.navigation.hold(code), onpointerup: () => this.navigation.release(code), onpointerleave: () => this.navigation.release(code),
+      onclick: (event) => event.detail === 0 && step(code), type: "button" });
     const pad = make("div", { class: "v-pad", role: "group", "aria-label": "Walk" },
       make("button", { ...press("KeyW"), "aria-label": "ahead" }, "\u2191"), make("button", { ...press("KeyA"), "aria-label": "left" }, "\u2190"),
       make("button", { ...press("KeyS"), "aria-label": "back" }, "\u2193"), make("button", { ...press("KeyD"), "aria-label": "right" }, "\u2192"));
-    this.live = make("span", { class: "v-hidden", "aria-live": "polite", style: "position:absolute;width:1px;height:1px;overflow:hidden;clip-path:inset(50%)" });
+    this.live = make("span", { class: "v-hidden", "aria-live": "polite" });
     this.stage = make("div", { class: "v-stage" }, this.canvas);
     this.overlay = new Overlay(this.stage);
-    this.stage.append(this.message, this.split, ...this.sideNames, pad, make("div", { class: "v-tools", role: "toolbar", "aria-label": "3D view" }, ...Object.values(this.tools), this.help), this.live);
+    this.stage.append(this.message, this.split, ...this.sideNames, pad, make("div", { class: "v-tools", role: "group", "aria-label": "3D view" }, ...Object.values(this.tools), this.help), this.live, this.keys);
 
     model.rooms.forEach((room, i) => {
       const middle = room.polygon.reduce((sum, [x, y]) => [sum[0] + x / room.polygon.length, sum[1] + y / room.polygon.length], [0, 0]);
@@ -137,7 +141,7 @@ class Viewer {
     const ids = new Set([...model.components, ...model.rooms].map(({ id }) => id));
     this.rows = linkRows(ids, (id) => this.choose(id, true));
     this.panel = new ElementPanel(model, {
-      choose: (id, goThere) => this.choose(id, goThere), show: (id) => this.goTo(id), row: (id) => this.rows.get(id),
+      choose: (id, goThere) => this.choose(id, goThere), show: (id) => this.goTo(id), row: (id) => this.rows.get(id)?.[0],
     });
     this.controls = makeControls(model, state, this.cloud.heights, () => this.apply());
     const side = make("div", { class: "v-side" }, this.panel.element, this.controls);
@@ -225,6 +229,8 @@ class Viewer {
     this.help.textContent = state.measures ? "Click two places; Esc ends measuring"
       : this.navigation.mode === "walk" ? "Drag to look, WASD or arrows to walk, Q and E down and up"
       : "Drag to turn, right drag to shift, wheel to zoom once clicked";
+    this.keys.textContent = this.navigation.mode === "walk" ? "Arrows or W A S D walk and turn, Q and E go down and up, Enter picks what is in the middle, Escape lets go."
+      : "Arrows turn, W A S D Q E shift, plus and minus zoom, Enter picks what is in the middle, Escape lets go.";
     this.draw();
   }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Rows of the report's tables that tell of an element or a room lead to it.
+// Rows of the report's tables that tell of an element or a room lead to it; it may have several.
 import { make } from "./dom.js";
 
 export function linkRows(ids, onChoose) {
@@ -16,15 +16,17 @@ export function linkRows(ids, onChoose) {
     }
     row.classList.add("v-linked");
     row.addEventListener("click", () => onChoose(id));
-    if (!rows.has(id)) rows.set(id, row);
+    rows.set(id, [...(rows.get(id) ?? []), row]);
   }
   return rows;
 }
 
 export function markRow(rows, id) {
-  for (const [other, row] of rows) {
-    row.classList.toggle("v-chosen", other === id);
-    if (other === id) row.setAttribute("aria-current", "true");
-    else row.removeAttribute("aria-current");
+  for (const [other, of] of rows) {
+    for (const row of of) {
+      row.classList.toggle("v-chosen", other === id);
+      if (other === id) row.setAttribute("aria-current", "true");
+      else row.removeAttribute("aria-current");
+    }
   }
 }

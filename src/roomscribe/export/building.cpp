@@ -198,9 +198,14 @@ std::optional<std::size_t> wall_of(const Building& building, std::size_t compone
     return best;
 }
 
-bool is_frame_of(const Component& frame, const Component& filling) {
-    return (filling.label == Label::door && frame.label == Label::door_frame) ||
-           (filling.label == Label::window && frame.label == Label::window_frame);
+/// Around a door, a window, or a passage whose door is gone.
+bool is_frame_of(const Component& frame, const Opening& opening,
+                 const std::vector<Component>& components) {
+    if (opening.passage) return frame.label == Label::door_frame;
+    if (!opening.filling) return false;
+    const Label label = components[*opening.filling].label;
+    return (label == Label::door && frame.label == Label::door_frame) ||
+           (label == Label::window && frame.label == Label::window_frame);
 }
 
 void set_span(Opening& opening, const Wall& wall, const Corners& corners) {
@@ -211,15 +216,15 @@ void set_span(Opening& opening, const Wall& wall, const Corners& corners) {
     opening.top = span.top;
 }
 
-/// The frame goes to the filling that it is around: the one whose middle it holds.
+/// The frame goes to the filling or passage that it is around: the one whose middle it holds.
 void add_frame(Building& building, std::size_t index, std::size_t wall_index) {
     const Component& frame = building.scene.components[index];
     const Wall& wall = building.walls[wall_index];
     Opening around;
     set_span(around, wall, frame.polygon);
     for (Opening& opening : building.openings) {
-        if (opening.wall != wall_index || opening.frame || !opening.filling) continue;
-        if (!is_frame_of(frame, building.scene.components[*opening.filling])) continue;
+        if (opening.wall != wall_index || opening.frame) continue;
+        if (!is_frame_of(frame, opening, building.scene.components)) continue;
         const double station = 0.5 * (opening.from + opening.to);
         const double height = 0.5 * (opening.bottom + opening.top);
         if (station < around.from || station > around.to || height < around.bottom ||

@@ -10,8 +10,12 @@
 namespace roomscribe {
 namespace {
 
-/// Colours of AutoCAD's index, by layer: 8 and 9 grey, 7 black or white, 4 cyan, 5 blue, 6 magenta.
-constexpr std::array<int, plan_layer_names.size()> colors{9, 8, 7, 4, 5, 6, 8, 7};
+/// Colours of AutoCAD's index, by layer: 8 and 9 grey, 7 black or white, 1 red, 4 cyan, 5 blue, 6
+/// magenta.
+constexpr std::array<int, plan_layer_names.size()> colors{9, 8, 7, 1, 4, 5, 6, 8, 7};
+
+/// Under which name entities carry the id of what they show (extended data).
+constexpr const char* application = "ROOMSCRIBE";
 
 class DxfText {
   public:
@@ -124,6 +128,11 @@ void add_tables(DxfText& dxf) {
     dxf.add(3, "txt");
     dxf.add(4, "");
     dxf.end_table();
+    dxf.begin_table("APPID", 1);
+    dxf.add(0, "APPID");
+    dxf.add(2, application);
+    dxf.add(70, 0);
+    dxf.end_table();
     dxf.end_section();
 }
 
@@ -133,17 +142,25 @@ void begin_entity(DxfText& dxf, const char* kind, PlanLayer layer, PlanStroke st
     if (stroke == PlanStroke::dashed) dxf.add(6, "DASHED");
 }
 
+void add_id(DxfText& dxf, const std::string& id) {
+    if (id.empty()) return;
+    dxf.add(1001, application);
+    dxf.add(1000, plain(id));
+}
+
 void add_path(DxfText& dxf, const PlanPath& path, const Eigen::Vector2d& shift) {
     if (path.corners.size() == 2) {
         begin_entity(dxf, "LINE", path.layer, path.stroke);
         dxf.add_point(10, path.corners[0] + shift);
         dxf.add_point(11, path.corners[1] + shift);
+        add_id(dxf, path.id);
         return;
     }
     begin_entity(dxf, "POLYLINE", path.layer, path.stroke);
     dxf.add(66, 1);
     dxf.add_point(10, Eigen::Vector2d::Zero());
     dxf.add(70, path.is_closed ? 1 : 0);
+    add_id(dxf, path.id);
     for (const Eigen::Vector2d& corner : path.corners) {
         begin_entity(dxf, "VERTEX", path.layer, path.stroke);
         dxf.add_point(10, corner + shift);
@@ -157,6 +174,7 @@ void add_arc(DxfText& dxf, const PlanArc& arc, const Eigen::Vector2d& shift) {
     dxf.add(40, arc.radius);
     dxf.add(50, degrees(arc.from));
     dxf.add(51, degrees(arc.to));
+    add_id(dxf, arc.id);
 }
 
 void add_text(DxfText& dxf, const PlanText& text, const Eigen::Vector2d& shift) {

@@ -29,6 +29,7 @@ path, line { fill: none; stroke-linejoin: round; stroke-linecap: butt; }
 .FURNITURE text { fill: #857d6d; }
 .WALLS path { fill: #2b313b; stroke: #2b313b; stroke-width: 0.12; }
 .WALLS path.dashed { fill: #c3c7cd; stroke: #6d7480; stroke-width: 0.2; }
+.FACES path { stroke: #8d949e; stroke-width: 0.1; }
 .WINDOWS path { fill: #fff; stroke: #2b313b; stroke-width: 0.18; }
 .DOORS path { stroke: #1f50dc; stroke-width: 0.22; }
 .DOORS path.leaf { fill: #fff; }
@@ -102,10 +103,10 @@ std::string arc_svg(const PlanArc& arc, const Paper& paper) {
                                arc.radius * Eigen::Vector2d(std::cos(angle), std::sin(angle)));
     };
     // y is turned over, so that what runs counter-clockwise is sweep 0.
-    return fmt::format("<path class=\"arc{}\" d=\"M{}A{} {} 0 0 0 {}\"/>\n",
+    return fmt::format("<path class=\"arc{}\" d=\"M{}A{} {} 0 0 0 {}\" data-id=\"{}\"/>\n",
                        arc.stroke == PlanStroke::dashed ? " dashed" : "", paper.place(at(arc.from)),
                        number(scale * arc.radius), number(scale * arc.radius),
-                       paper.place(at(arc.to)));
+                       paper.place(at(arc.to)), escaped(arc.id));
 }
 
 std::string text_svg(const PlanText& text, const Paper& paper) {

@@ -94,7 +94,13 @@ class GlbWriter {
     std::size_t add_storey(std::size_t storey) {
         const std::size_t node = add_node("storey-" + std::to_string(storey + 1));
         for (const std::size_t room : building_.storeys[storey].rooms) {
-            const std::size_t room_node = add_node(building_.scene.rooms[room].id);
+            const Room& said = building_.scene.rooms[room];
+            const std::size_t room_node = add_node(said.id);
+            json_["nodes"][room_node]["extras"] = {{"label", "room"},
+                                                   {"area", said.area},
+                                                   {"volume", said.volume},
+                                                   {"floor_height", said.floor_height},
+                                                   {"ceiling_height", said.ceiling_height}};
             add_components(room_node, storey, room);
             add_child(node, room_node);
         }

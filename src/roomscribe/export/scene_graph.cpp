@@ -110,9 +110,10 @@ std::string building_to_graph(const Building& building) {
         }
     }
     for (const Opening& opening : building.openings) {
-        if (!opening.frame || !opening.filling) continue;
-        edges.push_back(edge(scene.components[*opening.frame].id,
-                             scene.components[*opening.filling].id, "frames"));
+        const auto& framed = opening.filling ? opening.filling : opening.passage;
+        if (!opening.frame || !framed) continue;
+        edges.push_back(
+            edge(scene.components[*opening.frame].id, scene.components[*framed].id, "frames"));
     }
     const Json graph = {{"format", "roomscribe-graph"},
                         {"version", 1},

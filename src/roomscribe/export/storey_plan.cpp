@@ -131,6 +131,7 @@ class PlanDrawer {
             if (building_.walls[i].storey == storey_) draw_wall(i);
         for (const Opening& opening : building_.openings)
             if (building_.walls[opening.wall].storey == storey_) draw_opening(opening);
+        draw_lone_fillings();
         for (const PlanPath& path : plan_.paths)
             for (const Eigen::Vector2d& corner : path.corners)
                 plan_.bounds.extend(corner);
@@ -284,7 +285,7 @@ class PlanDrawer {
         std::optional<std::pair<double, Interval>> best;
         int least = std::numeric_limits<int>::max();
         const Eigen::Vector2d half =
-            turned({label_half_width, label_half_height + dimension_height});
+            turned({label_half_width, label_half_height + 2.0 * dimension_height});
         for (const auto& [y, line] : lines) {
             if (!is_about(line.to - line.from, usual)) continue;
             int cost = std::abs(turned(label).y() - y) < half.y() ? 100 : 0;
@@ -341,48 +342,74 @@ class PlanDrawer {
             plan_.paths.push_back(
                 {PlanLayer::walls, band(wall, left.from, left.to), true, stroke, wall.id});
         }
+        for (const FaceInPlan& face : wall.faces) {
+            const Component& seen = component(face.component);
+            add_line(PlanLayer::faces, face.start, face.end, stroke_of(seen), seen.id);
+        }
     }
 
     void draw_opening(const Opening& opening) {
         if (!opening.filling) return;
         const Component& filling = component(*opening.filling);
         if (filling.label == Label::window) {
-            draw_window(opening, filling);
-        } else {
-            draw_door(opening, filling);
+            plan_.paths.push_back({PlanLayer::windows,
+                                   band(building_.walls[opening.wall], opening.from, opening.to),
+                                   true, stroke_of(filling), filling.id});
+        }
+        draw_filling(filling);
+    }
+
+    /// Doors and windows that lie in no wall that was found.
+    void draw_lone_fillings() {
+        for (std::size_t i = 0; i < building_.scene.components.size(); ++i) {
+            const Component& component = this->component(i);
+            if (building_.storey_of[i] != storey_) continue;
+            if (component.label != Label::door && component.label != Label::window) continue;
+            if (std::none_of(building_.openings.begin(), building_.openings.end(),
+                             [i](const Opening& opening) { return opening.filling == i; }))
+                draw_filling(component);
         }
     }
 
-    void draw_window(const Opening& opening, const Component& window) {
-        const Wall& wall = building_.walls[opening.wall];
-        const PlanStroke stroke = stroke_of(window);
-        plan_.paths.push_back(
-            {PlanLayer::windows, band(wall, opening.from, opening.to), true, stroke, window.id});
-        const auto [a, b] = ends_of(window, wall);
-        // Glass as two lines, about as far apart as panes are.
+    void draw_filling(const Component& filling) {
+        // What lies flat has no place in a plan of what stands.
+        if (area_vector(filling.polygon).head<2>().norm() < 1e-9) return;
+        if (filling.label == Label::window) {
+            draw_panes(filling);
+        } else {
+            draw_door(filling);
+        }
+    }
+
+    /// Glass as two lines, about as far apart as panes are.
+    void draw_panes(const Component& window) {
+        const auto [a, b] = ends_of(window);
+        const Eigen::Vector2d along = (b - a).normalized();
+        const Eigen::Vector2d across(-along.y(), along.x());
         for (const double side : {-0.015, 0.015}) {
-            add_line(PlanLayer::windows, a + side * wall.left(), b + side * wall.left(), stroke,
+            add_line(PlanLayer::windows, a + side * across, b + side * across, stroke_of(window),
                      window.id);
         }
     }
 
-    /// Ends of what stands upright, seen from above, along the wall.
-    static std::pair<Eigen::Vector2d, Eigen::Vector2d> ends_of(const Component& component,
-                                                               const Wall& wall) {
+    /// Ends of what stands upright, seen from above: in its own plane, as its size is measured.
+    static std::pair<Eigen::Vector2d, Eigen::Vector2d> ends_of(const Component& component) {
+        const Eigen::Vector3d normal = area_vector(component.polygon);
+        const Eigen::Vector2d along = Eigen::Vector2d(normal.y(), -normal.x()).normalized();
         Eigen::Vector2d center = Eigen::Vector2d::Zero();
         for (const Eigen::Vector3d& corner : component.polygon)
             center += corner.head<2>() / static_cast<double>(component.polygon.size());
         double low = 0.0;
         double high = 0.0;
         for (const Eigen::Vector3d& corner : component.polygon) {
-            low = std::min(low, wall.along().dot(corner.head<2>() - center));
-            high = std::max(high, wall.along().dot(corner.head<2>() - center));
+            low = std::min(low, along.dot(corner.head<2>() - center));
+            high = std::max(high, along.dot(corner.head<2>() - center));
         }
-        return {center + low * wall.along(), center + high * wall.along()};
+        return {center + low * along, center + high * along};
     }
 
-    void draw_door(const Opening& opening, const Component& door) {
-        const auto [a, b] = ends_of(door, building_.walls[opening.wall]);
+    void draw_door(const Component& door) {
+        const auto [a, b] = ends_of(door);
         const PlanStroke stroke = stroke_of(door);
         const bool is_hinged = door.opens && door.opens->kind == MotionKind::hinged;
         if (!is_hinged) {
@@ -418,7 +445,7 @@ class PlanDrawer {
         double to = std::atan2(open.y(), open.x());
         if (turn < 0.0) std::swap(from, to);
         if (to < from) to += 2.0 * std::numbers::pi;
-        plan_.arcs.push_back({PlanLayer::doors, hinge, shut.norm(), from, to, stroke});
+        plan_.arcs.push_back({PlanLayer::doors, hinge, shut.norm(), from, to, stroke, id});
         const double middle = 0.5 * (from + to);
         plan_.bounds.extend(hinge +
                             shut.norm() * Eigen::Vector2d(std::cos(middle), std::sin(middle)));

@@ -18,14 +18,15 @@ enum class PlanLayer : std::uint8_t {
     rooms,
     furniture,
     walls,
+    faces,
     windows,
     doors,
     handles,
     dimensions,
     text,
 };
-inline constexpr std::array<std::string_view, 8> plan_layer_names{
-    "ROOMS", "FURNITURE", "WALLS", "WINDOWS", "DOORS", "HANDLES", "DIMENSIONS", "TEXT"};
+inline constexpr std::array<std::string_view, 9> plan_layer_names{
+    "ROOMS", "FURNITURE", "WALLS", "FACES", "WINDOWS", "DOORS", "HANDLES", "DIMENSIONS", "TEXT"};
 
 enum class PlanStroke : std::uint8_t {
     solid,
@@ -49,6 +50,7 @@ struct PlanArc {
     double from = 0.0;
     double to = 0.0;
     PlanStroke stroke = PlanStroke::solid;
+    std::string id;  ///< of the door that swings
 };
 
 /// Centred at its position, read along `angle`.
@@ -71,7 +73,8 @@ struct StoreyPlan {
     Eigen::AlignedBox2d bounds;  ///< of the paths; never empty
 };
 
-/// One plan per storey: walls as bands with gaps for their openings, doors with their swing,
+/// One plan per storey: walls as bands with gaps for their openings, on them the faces that were
+/// measured, each a line from end to end; doors with their swing,
 /// windows, furniture and handles from above, rooms with name and area, their clear width and depth
 /// and the overall size. A door swings as its hinge was found; one that is wider than single leaves
 /// are made has two; one of unknown hinge is drawn shut.

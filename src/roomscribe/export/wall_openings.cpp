@@ -124,9 +124,8 @@ std::vector<SpacePolygon> pieces_of_frame(const Building& building, const Openin
     if (!encloses_area(polygon)) return {};
     const PlaneFrame frame(polygon);
     std::vector<PlaneRectangle> holes;
-    if (opening.filling) {
-        holes.push_back(bounds(frame.down(building.scene.components[*opening.filling].polygon)));
-    }
+    if (const auto& inside = opening.filling ? opening.filling : opening.passage)
+        holes.push_back(bounds(frame.down(building.scene.components[*inside].polygon)));
     return frame.up(without_rectangles(convex_pieces(frame.down(polygon)), holes));
 }
 

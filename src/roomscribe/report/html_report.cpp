@@ -16,6 +16,7 @@
 #include "roomscribe/report/report_style.hpp"
 #include "roomscribe/report/report_tables.hpp"
 #include "roomscribe/report/report_views.hpp"
+#include "roomscribe/report/schedule_tables.hpp"
 #include "roomscribe/report/stage_figures.hpp"
 #include "roomscribe/report/viewer_bundle.hpp"
 #include "roomscribe/report/viewer_model.hpp"
@@ -267,6 +268,8 @@ std::string render_html_report(const Reconstruction& reconstruction, const Repor
     html += section("Furniture", furniture_figures(reconstruction, context));
     html += section("Stages", stage_figures(reconstruction, context));
     html += section("Rooms", rooms_table(reconstruction));
+    html += section("Doors and windows", openings_table(reconstruction.scene));
+    html += section("Handles", handles_table(reconstruction.scene));
     html += section("Components", components_table(reconstruction));
     html += section("Registration", links_table(reconstruction) + poses_table(reconstruction));
     html += section("Score against truth", info.score ? scores_tables(*info.score) : std::string());

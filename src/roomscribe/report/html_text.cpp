@@ -8,6 +8,12 @@
 #include <fmt/format.h>
 
 namespace roomscribe {
+namespace {
+
+/// With more, cells stand closer together to fit on a page.
+constexpr std::size_t many_columns = 10;
+
+}  // namespace
 
 std::string escape_html(std::string_view text) {
     std::string html;
@@ -134,8 +140,9 @@ std::string HtmlTable::finish() const {
     if (body_.empty()) return {};
     return fmt::format(
         "<div class=\"scroll\" "
-        "tabindex=\"0\"><table>\n{}<tbody>\n{}</tr>\n</tbody></table></div>\n",
-        head_, body_);
+        "tabindex=\"0\" role=\"group\" aria-label=\"Table, scrolls "
+        "sideways\"><table{}>\n{}<tbody>\n{}</tr>\n</tbody></table></div>\n",
+        columns_.size() > many_columns ? " class=\"many\"" : "", head_, body_);
 }
 
 }  // namespace roomscribe

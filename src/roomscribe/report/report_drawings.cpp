@@ -23,14 +23,6 @@ constexpr double rim = 2.0;
 constexpr double below = 9.0;
 constexpr double aside = 14.0;
 
-Building listed_building(const Scene& scene) {
-    Scene listed = scene;
-    std::erase_if(listed.components, [](const Component& component) {
-        return component.verdict == Verdict::rejected;
-    });
-    return describe_building(listed);
-}
-
 /// A rectangle on a wall as its room sees it: x to the right from the wall's left end, y up from
 /// its foot.
 struct OnWall {
@@ -43,13 +35,21 @@ struct OnWall {
     double top = 0.0;
 };
 
+/// A hole in a wall and what is in it: leaf or glass within its frame, or one of the two.
+struct OpeningOnWall {
+    OnWall hole;  ///< to the outer edge of the frame
+    std::vector<OnWall> parts;
+    ComponentSize size;  ///< of leaf or glass, else of the hole
+    std::string id;
+};
+
 struct Elevation {
     std::string id;
     std::string room;
     double length = 0.0;
     double height = 0.0;
     std::vector<Eigen::Vector2d> outline;
-    std::vector<OnWall> openings;
+    std::vector<OpeningOnWall> openings;
 };
 
 Elevation elevation_of(const Building& building, const Wall& wall, std::size_t wall_index,
@@ -73,13 +73,36 @@ Elevation elevation_of(const Building& building, const Wall& wall, std::size_t w
         const double b = station(wall.start + opening.to * wall.along());
         const double middle = (a + b) / 2.0;
         if (middle < 0.0 || middle > elevation.length) continue;
-        const Component& what = scene.components[opening.component()];
-        elevation.openings.push_back({what.id, what.label, what.verdict == Verdict::doubtful,
-                                      std::min(a, b), std::max(a, b), opening.bottom - face.bottom,
-                                      opening.top - face.bottom});
+        OpeningOnWall on_wall;
+        on_wall.hole = {"",
+                        Label::unknown,
+                        false,
+                        std::min(a, b),
+                        std::max(a, b),
+                        opening.bottom - face.bottom,
+                        opening.top - face.bottom};
+        for (const auto& index : {opening.frame, opening.passage, opening.filling}) {
+            if (!index) continue;
+            const Component& part = scene.components[*index];
+            OnWall& shape = on_wall.parts.emplace_back(on_wall.hole);
+            shape.id = part.id;
+            shape.label = part.label;
+            shape.is_doubtful = part.verdict == Verdict::doubtful;
+            Eigen::AlignedBox2d bounds;
+            for (const Eigen::Vector3d& corner : part.polygon)
+                bounds.extend(Eigen::Vector2d(station(corner.head<2>()), corner.z()));
+            shape.from = bounds.min().x();
+            shape.to = bounds.max().x();
+            shape.bottom = bounds.min().y() - face.bottom;
+            shape.top = bounds.max().y() - face.bottom;
+            on_wall.id = part.id;
+            on_wall.size = flat_size(part);
+        }
+        elevation.openings.push_back(std::move(on_wall));
     }
-    std::sort(elevation.openings.begin(), elevation.openings.end(),
-              [](const OnWall& a, const OnWall& b) { return a.from < b.from; });
+    std::sort(
+        elevation.openings.begin(), elevation.openings.end(),
+        [](const OpeningOnWall& a, const OpeningOnWall& b) { return a.hole.from < b.hole.from; });
     return elevation;
 }
 
@@ -99,15 +122,15 @@ class ElevationDrawing {
     ElevationDrawing(const Elevation& elevation, double scale)
         : elevation_(elevation), scale_(scale), right_(elevation.length) {
         // A hole is drawn as it was measured, also where it reaches beyond its wall.
-        for (const OnWall& opening : elevation.openings) {
-            left_ = std::min(left_, opening.from);
-            right_ = std::max(right_, opening.to);
+        for (const OpeningOnWall& opening : elevation.openings) {
+            left_ = std::min(left_, opening.hole.from);
+            right_ = std::max(right_, opening.hole.to);
         }
     }
 
     std::string svg() {
         draw_shape();
-        for (const OnWall& opening : elevation_.openings)
+        for (const OpeningOnWall& opening : elevation_.openings)
             draw_opening(opening);
         draw_widths();
         draw_height();
@@ -130,34 +153,48 @@ class ElevationDrawing {
         shapes_ += fmt::format("<polygon class=\"face\" points=\"{}\"/>\n", corners);
     }
 
-    void draw_opening(const OnWall& opening) {
-        shapes_ += fmt::format(
-            "<rect class=\"opening label-{}{}\" x=\"{:.2f}\" y=\"{:.2f}\" width=\"{:.2f}\" "
-            "height=\"{:.2f}\"/>\n",
-            label_name(opening.label), opening.is_doubtful ? " doubtful-shape" : "",
-            x(opening.from), y(opening.top), scale_ * (opening.to - opening.from),
-            scale_ * (opening.top - opening.bottom));
-        const double middle = (x(opening.from) + x(opening.to)) / 2.0;
-        const double level = (y(opening.bottom) + y(opening.top)) / 2.0;
-        text(middle, level - 0.8, opening.id, "middle");
-        text(middle, level + 2.4,
-             fmt::format("{:.2f} \u00d7 {:.2f}", opening.to - opening.from,
-                         opening.top - opening.bottom),
-             "middle");
-        constexpr double on_floor = 0.05;  // m: a door's threshold, and no parapet
-        if (opening.bottom > on_floor) {
-            line(middle, y(opening.bottom), middle, y(0.0));
-            text(middle + 0.8, (y(opening.bottom) + y(0.0)) / 2.0 + 0.9,
-                 fmt::format("{:.2f}", opening.bottom), "start");
+    void draw_opening(const OpeningOnWall& opening) {
+        for (const OnWall& part : opening.parts) {
+            shapes_ += fmt::format(
+                "<rect class=\"opening label-{}{}\" x=\"{:.2f}\" y=\"{:.2f}\" "
+                "width=\"{:.2f}\" height=\"{:.2f}\"/>\n",
+                label_name(part.label), part.is_doubtful ? " doubtful-shape" : "", x(part.from),
+                y(part.top), scale_ * (part.to - part.from), scale_ * (part.top - part.bottom));
         }
+        draw_name(opening);
+        const OnWall& hole = opening.hole;
+        constexpr double on_floor = 0.05;  // m: a door's threshold, and no parapet
+        if (hole.bottom > on_floor) {
+            const double middle = (x(hole.from) + x(hole.to)) / 2.0;
+            line(middle, y(hole.bottom), middle, y(0.0));
+            text(middle + 0.8, (y(hole.bottom) + y(0.0)) / 2.0 + 0.9,
+                 fmt::format("{:.2f}", hole.bottom), "start");
+        }
+    }
+
+    /// Name and size in the middle of an opening; upwards where it is too narrow for them.
+    void draw_name(const OpeningOnWall& opening) {
+        const OnWall& hole = opening.hole;
+        const std::string size =
+            fmt::format("{:.2f} \u00d7 {:.2f}", opening.size.width, opening.size.height);
+        constexpr double letter = 1.4;  // mm, advance of common fonts at 2.5 mm
+        const auto num_letters = static_cast<double>(std::max(opening.id.size(), size.size()));
+        const bool is_narrow = letter * num_letters > scale_ * (hole.to - hole.from);
+        const double middle = (x(hole.from) + x(hole.to)) / 2.0;
+        const double level = (y(hole.bottom) + y(hole.top)) / 2.0;
+        if (is_narrow)
+            shapes_ += fmt::format("<g transform=\"rotate(-90 {:.2f} {:.2f})\">\n", middle, level);
+        text(middle, level - 0.8, opening.id, "middle");
+        text(middle, level + 2.4, size, "middle");
+        if (is_narrow) shapes_ += "</g>\n";
     }
 
     /// A chain along the foot: from the left end over both sides of each opening to the right end.
     void draw_widths() {
         std::vector<double> stations{0.0, elevation_.length};
-        for (const OnWall& opening : elevation_.openings) {
-            stations.push_back(std::clamp(opening.from, 0.0, elevation_.length));
-            stations.push_back(std::clamp(opening.to, 0.0, elevation_.length));
+        for (const OpeningOnWall& opening : elevation_.openings) {
+            stations.push_back(std::clamp(opening.hole.from, 0.0, elevation_.length));
+            stations.push_back(std::clamp(opening.hole.to, 0.0, elevation_.length));
         }
         std::sort(stations.begin(), stations.end());
         const double level = y(0.0) + 3.0;
@@ -198,7 +235,24 @@ class ElevationDrawing {
     std::string shapes_;
 };
 
+/// "room-1, 12.00 m2; room-2, 9.00 m2"
+std::string rooms_in_words(const Scene& scene) {
+    std::string words;
+    for (const Room& room : scene.rooms) {
+        words += fmt::format("{}{}, {:.2f} m\u00b2", words.empty() ? "" : "; ", room.id, room.area);
+    }
+    return words;
+}
+
 }  // namespace
+
+Building listed_building(const Scene& scene) {
+    Scene listed = scene;
+    std::erase_if(listed.components, [](const Component& component) {
+        return component.verdict == Verdict::rejected;
+    });
+    return describe_building(listed);
+}
 
 std::string floor_plan_drawing(const Scene& scene) {
     if (scene.rooms.empty()) return {};
@@ -206,8 +260,11 @@ std::string floor_plan_drawing(const Scene& scene) {
     return fmt::format(
         "<figure>\n<figcaption><strong>Floor plan</strong><span>1:50 on paper, lengths in metres. "
         "<code>roomscribe export</code> gives it as SVG and DXF.</span></figcaption>\n"
-        "<img class=\"drawing\" alt=\"Floor plan with dimensions\" "
-        "src=\"data:image/svg+xml;base64,{}\"/>\n</figure>\n",
+        "<div class=\"scroll sheet\" tabindex=\"0\" role=\"group\" aria-label=\"Floor plan, "
+        "scrolls sideways\"><img "
+        "class=\"drawing\" alt=\"Floor plan of {}: {}\" "
+        "src=\"data:image/svg+xml;base64,{}\"/></div>\n</figure>\n",
+        counted(scene.rooms.size(), "room"), escape_html(rooms_in_words(scene)),
         encode_base64(std::as_bytes(std::span(svg))));
 }
 
@@ -224,7 +281,9 @@ std::string wall_elevations(const Scene& scene) {
     const double scale = scale_for(elevations);
     std::string html = fmt::format(
         "<p class=\"note\">Each wall as it is seen from its room, 1:{:.0f} on paper, lengths in "
-        "metres.</p>\n<div class=\"elevations\">\n",
+        "metres. Sizes in openings are those of leaf or glass; along the foot stand the outer "
+        "edges "
+        "of the frames.</p>\n<div class=\"elevations\">\n",
         1000.0 / scale);
     for (const Elevation& elevation : elevations) {
         html += fmt::format(

@@ -3,9 +3,13 @@
 
 #include <string>
 
+#include "roomscribe/export/building.hpp"
 #include "roomscribe/model/scene.hpp"
 
 namespace roomscribe {
+
+/// As builders see what is not rejected.
+Building listed_building(const Scene& scene);
 
 // Drawings of the model with dimensions, as HTML. Empty where there is nothing to draw. What is
 // rejected is left out.
@@ -13,9 +17,9 @@ namespace roomscribe {
 /// The floor plan of each storey, as `export --to svg` writes it.
 std::string floor_plan_drawing(const Scene& scene);
 
-/// Every wall as it is seen from its room, with its openings: widths along its foot, heights at its
-/// side, all walls to one scale, which on paper is 1:50 or, where a wall is longer than a page is
-/// wide, 1:100 or 1:200.
+/// Every wall as it is seen from its room, with its openings: leaf or glass in its frame, widths
+/// along its foot, heights at its side, all walls to one scale, which on paper is 1:50 or, where a
+/// wall is longer than a page is wide, 1:100 or 1:200.
 std::string wall_elevations(const Scene& scene);
 
 }  // namespace roomscribe

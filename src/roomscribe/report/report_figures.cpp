@@ -360,7 +360,8 @@ std::string piece_figure(const PiecePicture& picture, std::span<const Label> lab
         {name,
          fmt::format("{}{:.2f} &#215; {:.2f} m, {}", kind.empty() ? kind : kind + ", ",
                      extent.x() - 2.0 * piece_margin, extent.y() - 2.0 * piece_margin,
-                     counted(static_cast<std::size_t>(num_fixtures), "handle")),
+                     num_fixtures == 0 ? "no handle"
+                                       : counted(static_cast<std::size_t>(num_fixtures), "handle")),
          fmt::format("{} from its front with the outlines of its faces and handles", name)},
         component_shapes(picture.alone, picture.view.view), "", "");
 }

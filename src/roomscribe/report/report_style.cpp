@@ -121,7 +121,9 @@ th small, td small { display: block; font-weight: 400; }
 .muted, .muted th { color: var(--soft); font-weight: 400; }
 small { font-size: .9em; color: var(--soft); }
 code { font: .92em ui-monospace, "SF Mono", Menlo, Consolas, monospace; }
-.break { overflow-wrap: anywhere; }
+.break { display: block; min-width: 12rem; overflow-wrap: anywhere; white-space: normal; }
+.many th, .many td { padding-right: .7rem; }
+.sheet { margin: 0; }
 thead button { all: unset; cursor: pointer; }
 thead button:focus-visible { outline: 2px solid var(--bar); outline-offset: 3px; }
 thead button:hover { color: var(--ink); }
@@ -150,6 +152,8 @@ footer { margin-top: 4.5rem; padding-top: 1.25rem; border-top: 1px solid var(--l
   .legend { margin-left: 0; gap: .3rem 1rem; }
   .elevations figure { overflow-x: auto; }
   .elevation { max-width: none; }
+  .drawing { max-width: none; height: auto; min-width: 44rem; }
+  caption { position: sticky; left: 0; max-width: calc(100vw - 2.2rem); }
   .tag { font-size: .68rem; padding: 0 .35rem; }
   .station { width: 1.15rem; height: 1.15rem; font-size: .6rem; line-height: .9rem; }
 }
@@ -162,10 +166,10 @@ footer { margin-top: 4.5rem; padding-top: 1.25rem; border-top: 1px solid var(--l
   @page { margin: 16mm 14mm; }
   body { padding: 0; max-width: none; font-size: 10pt; }
   h2 { margin-top: 2rem; break-after: avoid; }
-  figcaption, caption { break-after: avoid; }
+  figcaption, caption, .note { break-after: avoid; }
   #viewer, figure, tr, .checks, .figures { break-inside: avoid; }
-  .figures { margin-top: 1.5rem; gap: 1rem; }
-  .figures dd { font-size: 1.25rem; }
+  .figures { margin-top: 1.5rem; gap: 1rem .8rem; }
+  .figures dd { font-size: 1.1rem; }
   figure { margin-bottom: 1.5rem; }
   .scroll { overflow: visible; margin-bottom: 1.5rem; }
   .plot { max-width: calc(var(--aspect) * 23rem); }

@@ -41,13 +41,13 @@ std::optional<double> area_of(const Component& component) {
 }
 
 /// Width by height in metres: of an upright polygon along and across the horizontal, of a level one
-/// along x and y of the room; of a box its three extents.
-std::string size_of(const Component& component, const Transform& room_from_map) {
+/// along x and y of the room; of a box its three extents. Empty where there is none.
+std::vector<double> size_of(const Component& component, const Transform& room_from_map) {
     if (component.box) {
         const Eigen::Vector3d& size = component.box->size;
-        return fmt::format("{:.2f}{}{:.2f}{}{:.2f}", size.x(), times, size.y(), times, size.z());
+        return {size.x(), size.y(), size.z()};
     }
-    if (component.polygon.size() < 3) return std::string(dash);
+    if (component.polygon.size() < 3) return {};
     const Eigen::Vector3d normal =
         (room_from_map.linear() * newell_normal(component.polygon)).normalized();
     const bool is_level = std::abs(normal.z()) > 0.9;
@@ -59,7 +59,16 @@ std::string size_of(const Component& component, const Transform& room_from_map) 
         const Eigen::Vector3d p = room_from_map.linear() * (corner - component.polygon[0]);
         extent.extend(Eigen::Vector2d(across.dot(p), up.dot(p)));
     }
-    return fmt::format("{:.2f}{}{:.2f}", extent.sizes().x(), times, extent.sizes().y());
+    return {extent.sizes().x(), extent.sizes().y()};
+}
+
+/// In order of the first extent, the width.
+void put_size(HtmlTable& table, const std::vector<double>& size) {
+    if (size.empty()) return table.html(dash);
+    std::string words;
+    for (const double extent : size)
+        words += fmt::format("{}{:.2f}", words.empty() ? "" : times, extent);
+    table.html(words, fmt::format("{}", size.front()));
 }
 
 std::optional<double> times_thousand(const std::optional<double>& value) {
@@ -139,7 +148,7 @@ std::string components_table(const Reconstruction& reconstruction) {
         table.html(fmt::format("<span class=\"nowrap\"><i class=\"swatch label-{}\"></i>{}</span>",
                                label_name(component.label), escape_html(what)),
                    fmt::format("{} {}", label, what));
-        table.html(size_of(component, reconstruction.scene.room_from_map));
+        put_size(table, size_of(component, reconstruction.scene.room_from_map));
         table.number(area_of(component), 2);
         table.count(evidence.points);
         table.number(in_percent(evidence.coverage), 0);
@@ -255,7 +264,7 @@ std::string derived_values_table(const Reconstruction& reconstruction) {
         table.html(fmt::format("<code>{}</code>", escape_html(derived.name)));
         table.html(fmt::format("{:.4g} {}", derived.value, escape_html(derived.unit)),
                    fmt::format("{}", derived.value));
-        table.text(derived.reason);
+        table.html(fmt::format("<div class=\"wide\">{}</div>", escape_html(derived.reason)));
     }
     return table.finish();
 }

@@ -233,13 +233,20 @@ TEST(StoreyPlan, DrawsWallsWithGapsAndTheSizesOfRooms) {
     const std::vector<StoreyPlan> plans = draw_floor_plans(flat());
     ASSERT_EQ(plans.size(), 1U);
     double length = 0.0;
+    std::map<std::string, double> faces;
     for (const PlanPath& path : plans[0].paths) {
-        if (path.id != "wall-2" && path.id != "wall-8") continue;
+        if (path.layer == PlanLayer::faces)
+            faces[path.id] += (path.corners.at(1) - path.corners.at(0)).norm();
+        if (path.layer != PlanLayer::walls || (path.id != "wall-2" && path.id != "wall-8"))
+            continue;
         ASSERT_EQ(path.corners.size(), 4U);
         length += (path.corners[1] - path.corners[0]).norm();
         EXPECT_NEAR((path.corners[2] - path.corners[1]).norm(), 0.12, 1e-9);
     }
     EXPECT_NEAR(length, 3.0 + 0.1 + 0.1 - 0.9, 1e-9);
+    EXPECT_EQ(faces.size(), 8U);
+    EXPECT_NEAR(faces["wall-1"], 4.0, 1e-9);
+    EXPECT_NEAR(faces["wall-8"], 3.0, 1e-9);
     std::multiset<std::string> words;
     for (const PlanText& text : plans[0].texts)
         words.insert(text.text);
@@ -264,6 +271,22 @@ TEST(StoreyPlan, DrawsTwoLeavesInAWideDoorway) {
         const double middle = 0.5 * (arc.from + arc.to);
         EXPECT_LT(std::cos(middle), 0.0);
     }
+}
+
+TEST(StoreyPlan, DrawsWhatLiesInNoWallAsWideAsItIs) {
+    Scene scene = flat_of_two_rooms();
+    std::erase_if(scene.components, [](const Component& c) { return c.label == Label::wall; });
+    const StoreyPlan plan = draw_floor_plans(describe_building(scene)).front();
+    ASSERT_EQ(plan.arcs.size(), 1U);
+    EXPECT_EQ(plan.arcs[0].id, "door-1");
+    EXPECT_NEAR(plan.arcs[0].radius, 0.8, 1e-9);
+    int num_panes = 0;
+    for (const PlanPath& path : plan.paths) {
+        if (path.layer != PlanLayer::windows) continue;
+        ++num_panes;
+        EXPECT_NEAR((path.corners.at(1) - path.corners.at(0)).norm(), 1.2, 1e-9);
+    }
+    EXPECT_EQ(num_panes, 2);
 }
 
 TEST(Svg, IsAtOneToFifty) {
@@ -312,6 +335,22 @@ TEST(Schedules, HaveARowAThing) {
             EXPECT_EQ(count(bare, ","), count(heading, ",")) << name << ": " << line;
         }
     }
+}
+
+TEST(Ifc, HasOneHoleInADoorwayWhoseDoorIsGone) {
+    Scene scene = flat_of_two_rooms();
+    for (Component& component : scene.components) {
+        if (component.id != "door-1") continue;
+        component.label = Label::unknown;
+        component.kind = "opening";
+    }
+    const Building building = describe_building(scene);
+    EXPECT_EQ(building.openings.size(), 2U);
+    const std::string ifc = building_to_ifc(building);
+    EXPECT_EQ(count(ifc, "=IFCOPENINGELEMENT("), 2U);
+    EXPECT_EQ(count(ifc, "=IFCDOOR("), 0U);
+    EXPECT_NEAR(area_of(parse_glb(building_to_glb(building)), "door_frame-1"), 0.9 * 2.05 - 1.6,
+                1e-5);
 }
 
 TEST(SceneGraph, RunsFromStoreyToHandle) {

@@ -32,6 +32,24 @@ TEST(WallElevations, ShowEveryWallWithItsOpeningsAndTheirSizes) {
     // A door between two rooms is in a wall of each.
     EXPECT_EQ(count_of(html, ">door-1</text>"), 2U);
     EXPECT_THAT(html, HasSubstr(">2.50</text>"));
+    // Leaf and glass within their frames, with their own sizes.
+    EXPECT_EQ(count_of(html, "class=\"opening label-door_frame\""), 2U);
+    EXPECT_EQ(count_of(html, ">0.80 \u00d7 2.00</text>"), 2U);
+    EXPECT_EQ(count_of(html, ">1.20 \u00d7 1.00</text>"), 1U);
+}
+
+TEST(WallElevations, NameNarrowOpeningsUpwards) {
+    Scene scene = test::flat_of_two_rooms();
+    EXPECT_EQ(count_of(wall_elevations(scene), "rotate(-90"), 0U);
+    // At 1:100 a door is narrower than its name.
+    for (Component& component : scene.components) {
+        if (component.id != "wall-1") continue;
+        component.polygon[1] += 6.0 * (component.polygon[1] - component.polygon[0]).normalized();
+        component.polygon[2] += 6.0 * (component.polygon[2] - component.polygon[3]).normalized();
+    }
+    const std::string html = wall_elevations(scene);
+    EXPECT_THAT(html, HasSubstr("1:100 on paper"));
+    EXPECT_GE(count_of(html, "rotate(-90"), 2U);
 }
 
 TEST(WallElevations, AreOfOneScaleThatFitsAPage) {
