@@ -22,6 +22,8 @@ constexpr double min_piece = 0.28;
 constexpr double min_top_step = 0.08;
 /// m: an overhang or a handle is not a step of the front.
 constexpr double min_front_step = 0.08;
+/// m: what rises higher behind that stands on the row.
+constexpr double front_thickness = 0.1;
 /// m: a row of less is one piece.
 constexpr double min_row = 0.7;
 
@@ -36,21 +38,28 @@ Profile measure_profile(const FurnitureVoxels& all, std::span<const std::uint32_
     Profile profile;
     profile.start = rectangle.center.dot(rectangle.axis) - rectangle.length / 2.0;
     const auto num_bins = static_cast<std::size_t>(rectangle.length / bin_width) + 1;
-    std::vector<std::array<std::vector<double>, 2>> values(num_bins);
+    std::vector<std::vector<std::pair<double, double>>> values(num_bins);  // height, depth
     for (const std::uint32_t i : members) {
         const FurnitureVoxel& voxel = all.voxels[i];
         const double along = voxel.place.head<2>().dot(rectangle.axis) - profile.start;
         const auto bin = static_cast<std::size_t>(
             std::clamp(along / bin_width, 0.0, static_cast<double>(num_bins - 1)));
-        values[bin][0].push_back(voxel.height);
-        values[bin][1].push_back(voxel.place.head<2>().dot(to_front));
+        values[bin].emplace_back(voxel.height, voxel.place.head<2>().dot(to_front));
     }
     constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
-    for (auto& [heights, depths] : values) {
+    for (std::vector<std::pair<double, double>>& places : values) {
         // Not the outermost voxels, which may be strays.
-        const bool is_seen = heights.size() >= 3;
-        profile.lines[0].push_back(is_seen ? quantile(heights, 0.95) : nothing);
-        profile.lines[1].push_back(is_seen ? quantile(depths, 0.95) : nothing);
+        const bool is_seen = places.size() >= 3;
+        std::vector<double> depths;
+        for (const auto& [height, depth] : places)
+            depths.push_back(depth);
+        const double front = is_seen ? quantile(depths, 0.95) : nothing;
+        std::vector<double> heights;
+        for (const auto& [height, depth] : places) {
+            if (depth >= front - front_thickness) heights.push_back(height);
+        }
+        profile.lines[0].push_back(heights.size() >= 3 ? quantile(heights, 0.95) : nothing);
+        profile.lines[1].push_back(front);
     }
     return profile;
 }

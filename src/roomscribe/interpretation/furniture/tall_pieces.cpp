@@ -29,6 +29,10 @@ constexpr std::size_t num_levels = 9;
 constexpr std::size_t min_filled_levels = 6;
 /// Fewer voxels are no side of a tall piece: 1.2 m x 8 cm in 4 cm.
 constexpr std::size_t min_voxels = 60;
+/// m: what stands shows a decimeter or two of itself below.
+constexpr double below_hanging = 0.15;
+/// Share of what hangs under which things stand that touch it, on a worktop or a table.
+constexpr double max_standing = 0.25;
 /// m: handles and overhangs.
 constexpr double beside = 0.06;
 
@@ -70,6 +74,27 @@ std::vector<std::uint32_t> find_tall_voxels(const FurnitureVoxels& all) {
     }
     std::sort(tall.begin(), tall.end());
     return tall;
+}
+
+/// For each voxel whether its column shows something in the decimeters below where hanging things
+/// begin.
+std::vector<bool> find_columns_below(const FurnitureVoxels& all) {
+    std::vector<std::array<std::int32_t, 4>> below;
+    const auto key = [&](const FurnitureVoxel& voxel) {
+        return std::array<std::int32_t, 4>{
+            static_cast<std::int32_t>(voxel.storey), voxel.room,
+            static_cast<std::int32_t>(std::floor(voxel.place.x() / all.reach)),
+            static_cast<std::int32_t>(std::floor(voxel.place.y() / all.reach))};
+    };
+    for (const FurnitureVoxel& voxel : all.voxels) {
+        if (voxel.is_core && voxel.height >= filled_to - below_hanging && voxel.height < min_tall)
+            below.push_back(key(voxel));
+    }
+    std::sort(below.begin(), below.end());
+    std::vector<bool> found(all.voxels.size(), false);
+    for (std::size_t i = 0; i < found.size(); ++i)
+        found[i] = std::binary_search(below.begin(), below.end(), key(all.voxels[i]));
+    return found;
 }
 
 bool are_together(const FurnitureVoxel& a, const FurnitureVoxel& b) {
@@ -213,15 +238,17 @@ std::vector<PieceDraft> draft_hanging_pieces(FurnitureVoxels& all) {
     std::vector<bool> is_high(all.voxels.size(), false);
     std::vector<std::uint32_t> high;
     for (std::uint32_t i = 0; i < all.voxels.size(); ++i) {
-        is_high[i] = all.voxels[i].is_core && all.voxels[i].height > filled_to;
+        is_high[i] = all.voxels[i].is_core && all.voxels[i].height >= min_tall;
         if (is_high[i]) high.push_back(i);
     }
+    std::vector<bool> goes_on_below = find_columns_below(all);
     std::vector<PieceDraft> drafts;
     for (std::vector<std::uint32_t>& members : connected_voxels(all, high, is_high)) {
-        double bottom = std::numeric_limits<double>::infinity();
-        for (const std::uint32_t i : members)
-            bottom = std::min(bottom, all.voxels[i].height);
-        if (bottom < min_tall) continue;
+        const auto standing =
+            std::count_if(members.begin(), members.end(),
+                          [&](std::uint32_t i) { return goes_on_below[i]; });
+        if (static_cast<double>(standing) > max_standing * static_cast<double>(members.size()))
+            continue;
         for (const std::uint32_t i : members)
             all.voxels[i].is_core = false;
         drafts.push_back({std::move(members), {}});
