@@ -222,11 +222,10 @@ PieceVerdict judge_tall(const PieceForm& form) {
     // Of a box a front, a side and a top are seen; between boards there are many faces.
     const bool may_be_open = form.level >= 0.08 && size.length >= 0.6 && form.depth <= 0.5;
     if (form.face < 0.25 * form.surface && !may_be_open) return {};
-    // A leaf that stands open is thin, and 1.95 to 2.1 m high and to 1.0 m wide; of a wardrobe's
-    // front the wall is as far behind as it is deep, if it was seen.
-    const bool is_front_only = !form.reaches_ceiling && form.face >= 0.6 * form.surface &&
-                               (size.length >= 1.15 || form.top < 1.92);
-    if (size.width < 0.24 && !Range{0.25, 0.75}.holds(form.depth) && !is_front_only) return {};
+    // A leaf that stands open and a wall beyond a doorway are thin; of a front the wall is as far
+    // behind as the piece is deep.
+    constexpr double min_width = 0.24;
+    if (size.width - form.blur < min_width && !Range{0.25, 0.85}.holds(form.depth)) return {};
     // Columns and pipes.
     if (form.reaches_ceiling && size.length < 0.6) return {};
     if (size.length < 0.38) return {};
@@ -297,6 +296,13 @@ PieceVerdict judge_plain(const PieceForm& form) {
     return {};
 }
 
+/// A tall box before a wall whose lower part no ray reached, as scanners see it that look only so
+/// far down: what hangs begins higher, what stands on something has that below.
+bool is_box_seen_above(const PieceForm& form) {
+    return form.bottom < min_hanging_bottom && Range{0.25, 0.75}.holds(form.depth) &&
+           form.planar >= 0.9 && form.upright >= 0.85;
+}
+
 }  // namespace
 
 PieceForm measure_form(const FurnitureVoxels& all, std::span<const LevelSlab> slabs,
@@ -329,6 +335,10 @@ PieceForm measure_form(const FurnitureVoxels& all, std::span<const LevelSlab> sl
     form.bottom = quantile(heights, 0.01);
     form.top = quantile(heights, 0.99);
     const FurnitureVoxel& some = all.voxels[draft.voxels.front()];
+    std::vector<double> noise;
+    for (const std::uint32_t i : draft.voxels)
+        noise.push_back(all.voxels[i].noise);
+    form.blur = 4.0 * median(noise);  // two deviations on either side
     form.planar = share(num_planar);
     std::sort(of_patches.begin(), of_patches.end());
     std::size_t largest = 0;
@@ -352,6 +362,8 @@ PieceForm measure_form(const FurnitureVoxels& all, std::span<const LevelSlab> sl
     if (!draft.slabs.empty()) {
         const LevelSlab& main = slabs[draft.slabs.front()];
         form.seat = main.height;
+        for (const std::size_t slab : draft.slabs)
+            form.highest_slab = std::max(form.highest_slab, slabs[slab].height);
         form.closed = closed_share(all, draft, main.rectangle, main.height - 0.1);
     }
     return form;
@@ -364,8 +376,10 @@ PieceVerdict judge_piece(const PieceForm& form) {
     if (form.bottom >= min_hanging_bottom) return judge_hanging(form);
     if (form.num_slabs == 0 && form.top < 1.25) return judge_plain(form);
     if (form.num_slabs == 0)
-        return form.bottom > max_standing_bottom ? PieceVerdict{} : judge_tall(form);
-    if (form.top >= 1.3) return judge_tall(form);
+        return form.bottom <= max_standing_bottom || is_box_seen_above(form) ? judge_tall(form)
+                                                                             : PieceVerdict{};
+    // A screen on a low chest makes nothing tall of it.
+    if (form.top >= 1.3 && form.highest_slab > 0.66) return judge_tall(form);
     if (form.seat <= 0.66) {
         const bool is_seat = form.seat >= 0.36 && form.rectangle.length <= 1.1;
         return is_seat ? judge_seat(form) : judge_low(form);

@@ -42,6 +42,20 @@ struct Column {
     std::uint32_t voxel = 0;
 };
 
+/// m: between a kitchen's worktop and its wall units lie 0.45 and more, between boards less.
+constexpr double max_board_gap = 0.44;
+
+/// Whether something higher than `from` follows on a gap wider than one between boards. Heights
+/// ascending.
+bool has_gap(std::span<const double> heights, double from) {
+    double last = from;
+    for (const double height : heights) {
+        if (height - last > max_board_gap) return true;
+        last = std::max(last, height);
+    }
+    return false;
+}
+
 std::vector<std::uint32_t> find_tall_voxels(const FurnitureVoxels& all) {
     std::vector<Column> columns;
     const auto cell = [&](double at) {
@@ -58,17 +72,20 @@ std::vector<std::uint32_t> find_tall_voxels(const FurnitureVoxels& all) {
         return std::tie(a.key, a.voxel) < std::tie(b.key, b.voxel);
     });
     std::vector<std::uint32_t> tall;
+    std::vector<double> heights;
     for (std::size_t begin = 0, end = 0; begin < columns.size(); begin = end) {
         std::bitset<num_levels> filled;
-        double top = 0.0;
+        heights.clear();
         for (; end < columns.size() && columns[end].key == columns[begin].key; ++end) {
             const double height = all.voxels[columns[end].voxel].height;
-            top = std::max(top, height);
+            heights.push_back(height);
             if (height < filled_from || height >= filled_to) continue;
             filled.set(std::min(static_cast<std::size_t>((height - filled_from) / level_height),
                                 num_levels - 1));
         }
-        if (top < min_tall || filled.count() < min_filled_levels) continue;
+        std::sort(heights.begin(), heights.end());
+        if (heights.back() < min_tall || filled.count() < min_filled_levels) continue;
+        if (has_gap(heights, filled_from)) continue;
         for (std::size_t k = begin; k < end; ++k)
             tall.push_back(columns[k].voxel);
     }
@@ -121,7 +138,6 @@ TallBox make_box(const FurnitureVoxels& all, std::vector<std::uint32_t> members)
 /// worktop and wall units is wider (0.45 m and more) than that between boards.
 bool is_bridged(const FurnitureVoxels& all, const TallBox& a, const TallBox& b,
                 const PlanRectangle& both) {
-    constexpr double max_board_gap = 0.44;
     std::vector<double> heights;
     for (const FurnitureVoxel& voxel : all.voxels) {
         if (!voxel.is_core || !are_together(voxel, all.voxels[a.voxels.front()])) continue;
@@ -134,12 +150,8 @@ bool is_bridged(const FurnitureVoxels& all, const TallBox& a, const TallBox& b,
     }
     if (heights.size() < min_voxels) return false;
     std::sort(heights.begin(), heights.end());
-    double last = 0.1;
-    for (const double height : heights) {
-        if (height - last > max_board_gap) return false;
-        last = std::max(last, height);
-    }
-    return std::min(a.top, b.top) - last <= max_board_gap;
+    constexpr double plinth = 0.1;  // m
+    return !has_gap(heights, plinth) && std::min(a.top, b.top) - heights.back() <= max_board_gap;
 }
 
 /// Sides of one shelf, or a front whose middle something hides: in line, of one height, with
@@ -174,6 +186,29 @@ void join_boxes(const FurnitureVoxels& all, std::vector<TallBox>& boxes) {
             j = i + 1;
         }
     }
+}
+
+/// Whether it stands on the floor by what its columns show: screens on chests and tables do not,
+/// which begin at 0.5 m and higher.
+bool stands_on_floor(const FurnitureVoxels& all, const TallBox& box) {
+    constexpr double low = 0.5;
+    constexpr double min_share = 0.3;  // of the columns; of others something hides the lower part
+    std::vector<std::pair<std::array<std::int32_t, 2>, bool>> columns;
+    for (const std::uint32_t i : box.voxels) {
+        const Eigen::Vector3d& place = all.voxels[i].place;
+        columns.push_back({{static_cast<std::int32_t>(std::floor(place.x() / all.reach)),
+                            static_cast<std::int32_t>(std::floor(place.y() / all.reach))},
+                           all.voxels[i].height >= low});
+    }
+    std::sort(columns.begin(), columns.end());
+    std::size_t count = 0;
+    std::size_t standing = 0;
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+        if (i > 0 && columns[i].first == columns[i - 1].first) continue;
+        ++count;
+        standing += columns[i].second ? 0U : 1U;  // the lowest first
+    }
+    return static_cast<double>(standing) >= min_share * static_cast<double>(count);
 }
 
 }  // namespace
@@ -218,6 +253,7 @@ std::vector<PieceDraft> draft_tall_pieces(FurnitureVoxels& all, const RoomSurfac
     join_boxes(all, boxes);
     std::vector<PieceDraft> drafts;
     for (const TallBox& box : boxes) {
+        if (!stands_on_floor(all, box)) continue;
         const FurnitureVoxel& some = all.voxels[box.voxels.front()];
         const PlanRectangle rectangle = extended_to_wall(box.rectangle, surfaces, some);
         PieceDraft draft;
