@@ -253,11 +253,29 @@ bool is_chair_back(const PieceForm& form) {
            form.planar >= mostly_planar && (form.depth == 0.0 || form.depth > wall_distance);
 }
 
-/// A box of which two sides are seen, before a wall, and higher than radiators are (0.7).
+/// A box of which two sides are seen, or its front alone, before a wall, and higher than radiators
+/// are (0.7) and a desk's side panels (0.75).
 bool is_box_at_wall(const PieceForm& form) {
-    return form.is_at_wall && form.bottom <= 0.2 && form.top >= 0.7 &&
-           Range{0.35, 0.75}.holds(form.depth) && form.rectangle.width >= 0.35 &&
-           form.upright >= 0.75 && form.planar >= 0.9;
+    constexpr double min_front = 0.6;    // share of what is seen
+    constexpr double min_length = 0.42;  // m: drawer units are 0.42 wide and more
+    const bool has_two_sides = form.is_at_wall && form.top >= 0.7 && form.rectangle.width >= 0.35;
+    const bool has_front = form.top >= 0.78 && form.rectangle.length >= min_length &&
+                           form.face >= min_front * form.surface;
+    return (has_two_sides || has_front) && form.bottom <= 0.2 &&
+           Range{0.35, 0.75}.holds(form.depth) && form.upright >= 0.75 &&
+           (form.planar >= 0.9 || form.face >= min_front * form.surface);
+}
+
+/// What stands in the open and is as large as a chair, with more than upright surface. Plants and
+/// radiators stand at walls, drawer units are lower or show their tops.
+bool is_chair_in_open(const PieceForm& form) {
+    constexpr double min_clearance = 0.78;  // m: of its front from a wall
+    constexpr double max_back = 0.45;       // m2, more than the back of any office chair
+    return (form.depth == 0.0 || form.depth >= min_clearance) &&
+           Range{0.8, 1.2}.holds(form.top) && form.bottom <= max_standing_bottom &&
+           Range{0.44, 0.75}.holds(form.rectangle.length) && form.rectangle.width >= 0.22 &&
+           form.planar >= 0.4 && form.upright <= 0.93 && form.face >= 0.08 &&
+           form.face <= max_back;
 }
 
 /// The fronts of a kitchen's row whose worktop was not seen.
@@ -282,6 +300,7 @@ PieceVerdict judge_plain(const PieceForm& form) {
                    ? furniture("drawer_unit", "sides of a box of a drawer unit's size", 0.65)
                    : furniture("cabinet", "sides of a box before a wall", 0.65);
     }
+    if (is_chair_in_open(form)) return furniture("chair", "size of a chair, in the open", 0.65);
     if (is_row_front(form)) return furniture("base_unit", "fronts of a row before a wall", 0.65);
     const double surface = form.surface;
     if (size.length > 2.5 && size.width > 1.2) return {};
