@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <utility>
@@ -64,6 +65,16 @@ Profile measure_profile(const FurnitureVoxels& all, std::span<const std::uint32_
     return profile;
 }
 
+/// The front is where most upright surface is: behind it little was seen.
+Eigen::Vector2d direction_to_front(std::span<const Eigen::Vector2d> places,
+                                   const PlanRectangle& rectangle) {
+    const Eigen::Vector2d across = rectangle.across();
+    std::size_t in_front = 0;
+    for (const Eigen::Vector2d& place : places)
+        in_front += (place - rectangle.center).dot(across) > 0.0 ? 1U : 0U;
+    return 2 * in_front >= places.size() ? across : Eigen::Vector2d(-across);
+}
+
 /// How much the medians on both sides of a bin's lower edge differ.
 double step_at(const std::vector<double>& line, std::size_t bin, std::size_t window) {
     std::array<std::vector<double>, 2> sides;
@@ -103,6 +114,17 @@ bool is_bridged_by_boards(const FurnitureVoxels& all, std::span<const std::uint3
 
 }  // namespace
 
+double front_top(const FurnitureVoxels& all, std::span<const std::uint32_t> members) {
+    const std::vector<Eigen::Vector2d> places = places_of(all, members);
+    const PlanRectangle rectangle = smallest_rectangle(places);
+    const Profile profile =
+        measure_profile(all, members, rectangle, direction_to_front(places, rectangle));
+    std::vector<double> tops;
+    std::copy_if(profile.lines[0].begin(), profile.lines[0].end(), std::back_inserter(tops),
+                 [](double top) { return std::isfinite(top); });
+    return tops.empty() ? 0.0 : median(tops);
+}
+
 std::vector<std::vector<std::uint32_t>> cut_row(const FurnitureVoxels& all,
                                                 std::span<const std::uint32_t> members) {
     const std::vector<Eigen::Vector2d> places = places_of(all, members);
@@ -110,14 +132,8 @@ std::vector<std::vector<std::uint32_t>> cut_row(const FurnitureVoxels& all,
     std::vector<std::vector<std::uint32_t>> parts;
     parts.emplace_back(members.begin(), members.end());
     if (rectangle.length < min_row) return parts;
-    // The front is where most upright surface is: behind it little was seen.
-    const Eigen::Vector2d across = rectangle.across();
-    std::size_t in_front = 0;
-    for (const Eigen::Vector2d& place : places)
-        in_front += (place - rectangle.center).dot(across) > 0.0 ? 1U : 0U;
-    const bool is_front = 2 * in_front >= places.size();
     const Profile profile =
-        measure_profile(all, members, rectangle, is_front ? across : Eigen::Vector2d(-across));
+        measure_profile(all, members, rectangle, direction_to_front(places, rectangle));
     const std::size_t num_bins = profile.lines[0].size();
     const auto window = static_cast<std::size_t>(std::lround(min_piece / bin_width));
     double greatest = 1.0;

@@ -15,4 +15,8 @@ namespace roomscribe {
 std::vector<std::vector<std::uint32_t>> cut_row(const FurnitureVoxels& all,
                                                 std::span<const std::uint32_t> members);
 
+/// m above the floor, where the front of a row ends: what stands on the row rises higher behind it.
+/// 0 if too little was seen.
+double front_top(const FurnitureVoxels& all, std::span<const std::uint32_t> members);
+
 }  // namespace roomscribe

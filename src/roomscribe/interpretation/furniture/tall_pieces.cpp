@@ -75,16 +75,19 @@ std::vector<std::uint32_t> find_tall_voxels(const FurnitureVoxels& all) {
     std::vector<double> heights;
     for (std::size_t begin = 0, end = 0; begin < columns.size(); begin = end) {
         std::bitset<num_levels> filled;
+        double top = 0.0;
         heights.clear();
         for (; end < columns.size() && columns[end].key == columns[begin].key; ++end) {
-            const double height = all.voxels[columns[end].voxel].height;
+            const FurnitureVoxel& voxel = all.voxels[columns[end].voxel];
+            const double height = voxel.height;
+            top = std::max(top, height - voxel.noise);
             heights.push_back(height);
             if (height < filled_from || height >= filled_to) continue;
             filled.set(std::min(static_cast<std::size_t>((height - filled_from) / level_height),
                                 num_levels - 1));
         }
         std::sort(heights.begin(), heights.end());
-        if (heights.back() < min_tall || filled.count() < min_filled_levels) continue;
+        if (top < min_tall || filled.count() < min_filled_levels) continue;
         if (has_gap(heights, filled_from)) continue;
         for (std::size_t k = begin; k < end; ++k)
             tall.push_back(columns[k].voxel);
