@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "roomscribe/core/quantile.hpp"
+#include "roomscribe/interpretation/furniture/row_cuts.hpp"
 
 namespace roomscribe {
 namespace {
@@ -258,12 +259,15 @@ bool is_chair_back(const PieceForm& form) {
 bool is_box_at_wall(const PieceForm& form) {
     constexpr double min_front = 0.6;    // share of what is seen
     constexpr double min_length = 0.42;  // m: drawer units are 0.42 wide and more
-    const bool has_two_sides = form.is_at_wall && form.top >= 0.7 && form.rectangle.width >= 0.35;
+    constexpr double max_depth = 0.8;
+    const bool is_smooth = form.planar >= 0.88;
+    const bool is_face = form.face >= min_front * form.surface && form.upright >= 0.75;
+    const bool has_two_sides = form.top >= 0.7 && form.rectangle.width >= 0.35 &&
+                               form.bottom <= 0.35 && (is_smooth || is_face);
     const bool has_front = form.top >= 0.78 && form.rectangle.length >= min_length &&
-                           form.face >= min_front * form.surface;
-    return (has_two_sides || has_front) && form.bottom <= 0.2 &&
-           Range{0.35, 0.75}.holds(form.depth) && form.upright >= 0.75 &&
-           (form.planar >= 0.9 || form.face >= min_front * form.surface);
+                           form.bottom <= 0.2 && is_face;
+    return (has_two_sides || has_front) && Range{0.35, max_depth}.holds(form.depth) &&
+           form.rectangle.width <= max_depth && form.upright >= 0.62;
 }
 
 /// What stands in the open and is as large as a chair, with more than upright surface. Plants and
@@ -280,8 +284,9 @@ bool is_chair_in_open(const PieceForm& form) {
 
 /// The fronts of a kitchen's row whose worktop was not seen.
 bool is_row_front(const PieceForm& form) {
-    return form.bottom <= 0.25 && Range{0.75, 1.0}.holds(form.top) &&
-           Range{1.2, 5.0}.holds(form.rectangle.length) && Range{0.5, 0.75}.holds(form.depth) &&
+    const double depth = form.depth > 0.0 ? form.depth : form.rectangle.width;
+    return form.bottom <= 0.25 && Range{0.75, 1.0}.holds(form.front_top) &&
+           Range{1.2, 5.0}.holds(form.rectangle.length) && Range{0.5, 0.8}.holds(depth) &&
            form.upright >= 0.75 && form.planar >= 0.9;
 }
 
@@ -295,13 +300,13 @@ PieceVerdict judge_plain(const PieceForm& form) {
     if (form.top < 0.4 || size.length < 0.25) return {};
     if (is_chair_back(form)) return furniture("chair", "back of a chair, its seat hidden", 0.65);
     if (form.bottom > max_standing_bottom) return {};
+    if (is_row_front(form)) return furniture("base_unit", "fronts of a row before a wall", 0.65);
     if (is_box_at_wall(form)) {
         return size.length <= 0.65
                    ? furniture("drawer_unit", "sides of a box of a drawer unit's size", 0.65)
                    : furniture("cabinet", "sides of a box before a wall", 0.65);
     }
     if (is_chair_in_open(form)) return furniture("chair", "size of a chair, in the open", 0.65);
-    if (is_row_front(form)) return furniture("base_unit", "fronts of a row before a wall", 0.65);
     const double surface = form.surface;
     if (size.length > 2.5 && size.width > 1.2) return {};
     if (form.planar >= min_planar && form.upright >= 0.5 && size.length >= 0.35 &&
@@ -353,6 +358,7 @@ PieceForm measure_form(const FurnitureVoxels& all, std::span<const LevelSlab> sl
     form.rectangle = smallest_rectangle(places);
     form.bottom = quantile(heights, 0.01);
     form.top = quantile(heights, 0.99);
+    form.front_top = front_top(all, draft.voxels);
     const FurnitureVoxel& some = all.voxels[draft.voxels.front()];
     std::vector<double> noise;
     for (const std::uint32_t i : draft.voxels)

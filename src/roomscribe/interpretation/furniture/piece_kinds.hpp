@@ -18,6 +18,7 @@ struct PieceForm {
     PlanRectangle rectangle;
     double bottom = 0.0;   ///< m above the floor
     double top = 0.0;      ///< m above the floor
+    double front_top = 0.0;  ///< m above the floor, where its front ends
     double level = 0.0;    ///< share of the voxels that are level
     double upright = 0.0;  ///< share of the voxels that are upright
     double seat = 0.0;     ///< m above the floor, of its main slab; 0 for none
