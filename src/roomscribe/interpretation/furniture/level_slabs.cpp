@@ -201,27 +201,102 @@ struct Cut {
     double area = 0.0;  ///< m2, of both rectangles together
 };
 
-Cut find_cut(std::span<const Eigen::Vector2d> places, const PlanRectangle& rectangle, double step) {
-    Cut best;
-    best.area = rectangle.area();
-    std::vector<Eigen::Vector2d> low;
-    std::vector<Eigen::Vector2d> high;
-    for (const Eigen::Vector2d& direction : {Eigen::Vector2d(rectangle.axis), rectangle.across()}) {
-        const double extent = direction == rectangle.axis ? rectangle.length : rectangle.width;
-        const double middle = rectangle.center.dot(direction);
-        // A piece of a row is not narrower than a kitchen's narrowest unit.
-        constexpr double least = 0.3;
-        for (double at = middle - extent / 2.0 + least; at <= middle + extent / 2.0 - least;
-             at += step) {
-            low.clear();
-            high.clear();
-            for (const Eigen::Vector2d& place : places)
-                (place.dot(direction) < at ? low : high).push_back(place);
-            const double area = smallest_rectangle(low).area() + smallest_rectangle(high).area();
-            if (area < best.area) best = {direction, at, area};
+/// Squares of the plan that a slab covers, along its rectangle.
+class CoveredSquares {
+  public:
+    CoveredSquares(std::span<const Eigen::Vector2d> places, const PlanRectangle& rectangle,
+                   double edge)
+        : edge_(edge) {
+        const Eigen::Vector2d half(0.5 * rectangle.length, 0.5 * rectangle.width);
+        const auto squares = [&](double extent) { return static_cast<int>(extent / edge) + 1; };
+        size_ = {squares(rectangle.length), squares(rectangle.width)};
+        is_covered_.assign(static_cast<std::size_t>(size_[0] * size_[1]), false);
+        for (const Eigen::Vector2d& place : places) {
+            const Eigen::Vector2d from = place - rectangle.center;
+            const Eigen::Vector2d at =
+                (Eigen::Vector2d(from.dot(rectangle.axis), from.dot(rectangle.across())) + half) /
+                edge;
+            is_covered_[index(std::clamp(static_cast<int>(at.x()), 0, size_[0] - 1),
+                              std::clamp(static_cast<int>(at.y()), 0, size_[1] - 1))] = true;
+        }
+    }
+
+    /// Squares from `low` to before `high`, along and across.
+    struct Window {
+        std::array<int, 2> low{};
+        std::array<int, 2> high{};
+    };
+
+    Window whole() const { return {{0, 0}, size_}; }
+
+    /// What of a window is covered, tightly.
+    Window bounds(const Window& window) const {
+        Window tight{window.high, window.low};
+        for (int y = window.low[1]; y < window.high[1]; ++y) {
+            for (int x = window.low[0]; x < window.high[0]; ++x) {
+                if (!is_covered_[index(x, y)]) continue;
+                tight.low = {std::min(tight.low[0], x), std::min(tight.low[1], y)};
+                tight.high = {std::max(tight.high[0], x + 1), std::max(tight.high[1], y + 1)};
+            }
+        }
+        return tight;
+    }
+
+    double extent(const Window& window, std::size_t direction) const {
+        return edge_ * std::max(0, window.high[direction] - window.low[direction]);
+    }
+    double area(const Window& window) const { return extent(window, 0) * extent(window, 1); }
+
+  private:
+    std::size_t index(int x, int y) const { return static_cast<std::size_t>(y * size_[0] + x); }
+
+    double edge_;
+    std::array<int, 2> size_{};
+    std::vector<bool> is_covered_;
+};
+
+/// The least area of rectangles that hold a window, cut up to `depth` times in a row from side to
+/// side, and where its first cut lies. What fits a table is cut no further.
+struct Partition {
+    double area = 0.0;
+    std::size_t direction = 0;
+    int at = 0;
+};
+
+Partition best_partition(const CoveredSquares& squares, const CoveredSquares::Window& window,
+                         double edge, int depth) {
+    // A piece of a row is not narrower than a kitchen's narrowest unit.
+    constexpr double least = 0.3;
+    // m2 that a cut has to save: rims are not straight.
+    constexpr double toll = 0.1;
+    const CoveredSquares::Window tight = squares.bounds(window);
+    Partition best{squares.area(tight), 0, 0};
+    const std::array<double, 2> extents{squares.extent(tight, 0), squares.extent(tight, 1)};
+    const bool fits = std::min(extents[0], extents[1]) <= max_table_width &&
+                      std::max(extents[0], extents[1]) <= max_table_length;
+    if (fits || depth == 0) return best;
+    const int margin = static_cast<int>(std::ceil(least / edge));
+    for (const std::size_t direction : {std::size_t{0}, std::size_t{1}}) {
+        for (int at = tight.low[direction] + margin; at + margin <= tight.high[direction]; ++at) {
+            CoveredSquares::Window low = tight;
+            CoveredSquares::Window high = tight;
+            low.high[direction] = at;
+            high.low[direction] = at;
+            const double area = best_partition(squares, low, edge, depth - 1).area +
+                                best_partition(squares, high, edge, depth - 1).area + toll;
+            if (area < best.area) best = {area, direction, at};
         }
     }
     return best;
+}
+
+Cut find_cut(std::span<const Eigen::Vector2d> places, const PlanRectangle& rectangle, double edge) {
+    constexpr int max_depth = 2;
+    const CoveredSquares squares(places, rectangle, edge);
+    const Partition best = best_partition(squares, squares.whole(), edge, max_depth);
+    const Eigen::Vector2d direction = best.direction == 0 ? rectangle.axis : rectangle.across();
+    const double extent = best.direction == 0 ? rectangle.length : rectangle.width;
+    return {direction, rectangle.center.dot(direction) - extent / 2.0 + edge * best.at, best.area};
 }
 
 /// Voxels below a top, at a line across it, of what stands there from the floor to the top: legs
