@@ -20,6 +20,8 @@ constexpr double max_hidden_depth = 0.7;
 /// m before the wall: radiators are 5 to 12 cm thick and 3 to 6 off the wall, curtains hang as
 /// near.
 constexpr double max_thin_depth = 0.22;
+/// m above the floor: of chairs and stools with their cushions.
+constexpr double max_seat = 0.56;
 /// m above the floor: what stands shows something lower, unless other things hide it.
 constexpr double max_standing_bottom = 0.5;
 /// m above the floor: wall units begin at 1.35, shelves over a sofa or desk lower.
@@ -146,26 +148,6 @@ PieceVerdict judge_hanging(const PieceForm& form) {
     return {};
 }
 
-PieceVerdict judge_seat(const PieceForm& form) {
-    const double across = form.rectangle.length;
-    // Cushions and legs are less flat than boards, leaves less than either; a seat is 0.14 m2.
-    constexpr double min_flat = 0.4;
-    constexpr double min_seat_area = 0.14;
-    if (across > 1.1 || (form.planar < min_flat && form.face < min_seat_area)) return {};
-    if (form.top >= 0.65) {
-        if (form.rectangle.width >= 0.7 && form.upright + form.level > 0.6)
-            return furniture("armchair", "seat with arms and a back", 0.7);
-        if (across > 0.6) return furniture("office_chair", "seat with a back, on a foot", 0.8);
-        return furniture("chair", "seat with a back", 0.85);
-    }
-    if (form.rectangle.width < 0.24) return {};
-    // Cartons and bins stand anywhere, small chests at a wall.
-    if (form.closed > 0.7 && !form.is_at_wall) return {};
-    if (form.closed > 0.7 && form.rectangle.width >= 0.3)
-        return furniture("nightstand", "low box of a nightstand's size", 0.7);
-    return furniture("stool", "seat without a back", 0.75);
-}
-
 PieceVerdict judge_low(const PieceForm& form) {
     const PlanRectangle& size = form.rectangle;
     // Cartons and bins.
@@ -183,14 +165,51 @@ PieceVerdict judge_low(const PieceForm& form) {
         if (size.length > 0.9) return furniture("tv_unit", "low closed box", 0.7);
         return furniture("nightstand", "low box of a nightstand's size", 0.65);
     }
+    constexpr double min_bench_width = 0.28;
+    if (size.width < min_bench_width) return {};
     if (size.width < 0.5 && size.length > 0.8) return furniture("bench", "long seat", 0.7);
     return furniture("coffee_table", "low table top", 0.7);
+}
+
+PieceVerdict judge_seat(const PieceForm& form) {
+    const double across = form.rectangle.length;
+    // Cushions and legs are less flat than boards, leaves less than either; a seat is 0.14 m2.
+    constexpr double min_flat = 0.4;
+    constexpr double min_seat_area = 0.14;
+    if (across > 1.1 || (form.planar < min_flat && form.face < min_seat_area)) return {};
+    // Wider than a chair, and closed or narrow: a low chest, or its front.
+    constexpr double max_chair_width = 0.75;
+    constexpr double min_chair_depth = 0.35;
+    if (across > max_chair_width && (form.closed > 0.7 || form.rectangle.width < min_chair_depth))
+        return judge_low(form);
+    if (form.seat > max_seat && form.closed > 0.7)
+        return furniture("drawer_unit", "low box of a drawer unit's size", 0.7);
+    if (form.seat > max_seat)
+        return furniture("chair", "level surface above a chair's seat", 0.3, "thing");
+    if (form.top >= 0.65) {
+        if (form.rectangle.width >= 0.7 && form.upright + form.level > 0.6)
+            return furniture("armchair", "seat with arms and a back", 0.7);
+        if (across > 0.6) return furniture("office_chair", "seat with a back, on a foot", 0.8);
+        return furniture("chair", "seat with a back", 0.85);
+    }
+    // Stools are as deep as wide, 0.3 and more; cartons and bags are not.
+    constexpr double min_stool = 0.28;
+    constexpr double max_elongation = 1.45;
+    const bool is_square = form.rectangle.length <= max_elongation * form.rectangle.width;
+    if (form.rectangle.width < 0.24) return {};
+    // Cartons and bins stand anywhere, small chests at a wall.
+    if (form.closed > 0.7 && !form.is_at_wall) return {};
+    if (form.closed > 0.7 && form.rectangle.width >= 0.3)
+        return furniture("nightstand", "low box of a nightstand's size", 0.7);
+    if (!is_square && form.rectangle.width >= 0.4) return judge_low(form);
+    if (form.rectangle.width < min_stool || !is_square) return {};
+    return furniture("stool", "seat without a back", 0.75);
 }
 
 PieceVerdict judge_table(const PieceForm& form) {
     const PlanRectangle& size = form.rectangle;
     // Window sills.
-    if (form.is_at_wall && form.depth < 0.3 && size.width < 0.28) return {};
+    if (form.is_at_wall && form.depth < 0.35 && size.width < 0.3) return {};
     if (form.closed > 0.7 && size.width <= 0.8) {
         if (size.length > 1.8 && size.width >= 0.5 && Range{0.82, 0.98}.holds(form.seat))
             return furniture("base_unit", "row of boxes under a worktop", 0.85);
@@ -212,6 +231,10 @@ PieceVerdict judge_table(const PieceForm& form) {
         return furniture("counter", "top at a counter's height", is_long ? 0.7 : 0.3,
                          is_long ? "" : "thing");
     }
+    // Desks are 0.6 deep at least; what is less is a part, or the back of a sofa.
+    constexpr double min_table_width = 0.5;
+    if (size.width < min_table_width)
+        return furniture("table", "part of a top at a table's height", 0.3, "thing");
     if (size.width <= 0.85 && size.length >= 1.0)
         return furniture("desk", "top at a desk's height, open below", 0.85);
     return furniture("table", "top at a table's height, open below", 0.8);
