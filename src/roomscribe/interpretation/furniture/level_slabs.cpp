@@ -30,6 +30,8 @@ constexpr double max_table_length = 2.1;
 constexpr double min_table_height = 0.66;
 /// m: a chair's seat is at most as wide as an office chair's.
 constexpr double max_seat_width = 0.62;
+/// m above the floor: of seats with their cushions.
+constexpr double max_seat_height = 0.56;
 /// m: the shadow of a monitor or a box on a top.
 constexpr double max_shadow = 0.6;
 /// Share of the rectangle around two pieces of a top that they have to fill.
@@ -400,9 +402,48 @@ std::optional<Cut> halve(const FurnitureVoxels& all, const LevelSlab& slab) {
     return supports == 0 && may_be_one ? std::nullopt : best;
 }
 
+/// Seats of two chairs side by side that noise ties together: of a chair's size both, with nearly
+/// nothing between, where cushions of a sofa touch along their depth.
+std::optional<Cut> cut_seats(const FurnitureVoxels& all, std::span<const Eigen::Vector2d> places,
+                             const LevelSlab& slab, double voxel_size) {
+    constexpr double min_seat = 0.3;
+    constexpr double max_filled = 0.25;  // share of the seats' depth
+    const PlanRectangle& rectangle = slab.rectangle;
+    if (slab.height > max_seat_height || rectangle.width > max_seat_width ||
+        rectangle.length < 2.0 * min_seat || rectangle.length > 2.0 * max_seat_width) {
+        return std::nullopt;
+    }
+    const double bin = 1.5 * std::max(voxel_size, 0.5 * all.reach);
+    std::vector<std::pair<std::int32_t, std::int32_t>> cells;  // along, across
+    for (const Eigen::Vector2d& place : places) {
+        const Eigen::Vector2d from = place - rectangle.center;
+        cells.emplace_back(
+            static_cast<std::int32_t>((from.dot(rectangle.axis) + 0.5 * rectangle.length) / bin),
+            static_cast<std::int32_t>(std::floor(from.dot(rectangle.across()) / voxel_size)));
+    }
+    std::sort(cells.begin(), cells.end());
+    cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
+    std::vector<double> depths(static_cast<std::size_t>(rectangle.length / bin) + 1, 0.0);
+    for (const auto& [along, across] : cells)
+        depths[static_cast<std::size_t>(along)] += 1.0;
+    std::vector<double> sorted = depths;
+    const double usual = median(sorted);
+    const auto margin = static_cast<std::size_t>(min_seat / bin);
+    std::optional<Cut> best;
+    double least = max_filled * usual;
+    for (std::size_t i = margin; i + margin < depths.size(); ++i) {
+        if (depths[i] > least) continue;
+        least = depths[i];
+        const double start = rectangle.center.dot(rectangle.axis) - 0.5 * rectangle.length;
+        best = Cut{rectangle.axis, start + bin * (static_cast<double>(i) + 0.5), 0.0};
+    }
+    return best;
+}
+
 std::optional<Cut> choose_cut(const FurnitureVoxels& all, std::span<const Eigen::Vector2d> places,
                               const LevelSlab& slab, double voxel_size) {
     const PlanRectangle& rectangle = slab.rectangle;
+    if (const std::optional<Cut> cut = cut_seats(all, places, slab, voxel_size)) return cut;
     if (rectangle.width <= max_table_width + 0.1) return cut_desks(all, slab);
     // What fills less than this of its rectangle is an L or several at angles.
     constexpr double min_fill = 0.8;
