@@ -148,6 +148,15 @@ PieceVerdict judge_hanging(const PieceForm& form) {
     return {};
 }
 
+/// Chests beside beds are nearly square and 0.45 to 0.65 high.
+bool is_nightstand(const PieceForm& form) {
+    constexpr double min_width = 0.3;
+    constexpr double max_elongation = 1.45;
+    constexpr double min_height = 0.45;
+    return form.rectangle.width >= min_width && form.seat >= min_height &&
+           form.rectangle.length <= max_elongation * form.rectangle.width;
+}
+
 PieceVerdict judge_low(const PieceForm& form) {
     const PlanRectangle& size = form.rectangle;
     // Cartons and bins.
@@ -163,6 +172,8 @@ PieceVerdict judge_low(const PieceForm& form) {
     }
     if (form.closed > 0.7) {
         if (size.length > 0.9) return furniture("tv_unit", "low closed box", 0.7);
+        // Cartons, bags and heaters along walls are longer than deep, or lower.
+        if (!is_nightstand(form)) return {};
         return furniture("nightstand", "low box of a nightstand's size", 0.65);
     }
     constexpr double min_bench_width = 0.28;
@@ -199,7 +210,7 @@ PieceVerdict judge_seat(const PieceForm& form) {
     if (form.rectangle.width < 0.24) return {};
     // Cartons and bins stand anywhere, small chests at a wall.
     if (form.closed > 0.7 && !form.is_at_wall) return {};
-    if (form.closed > 0.7 && form.rectangle.width >= 0.3)
+    if (form.closed > 0.7 && is_nightstand(form))
         return furniture("nightstand", "low box of a nightstand's size", 0.7);
     if (!is_square && form.rectangle.width >= 0.4) return judge_low(form);
     if (form.rectangle.width < min_stool || !is_square) return {};
@@ -249,7 +260,14 @@ PieceVerdict judge_tall(const PieceForm& form) {
     // A leaf that stands open and a wall beyond a doorway are thin; of a front the wall is as far
     // behind as the piece is deep.
     constexpr double min_width = 0.24;
-    if (size.width - form.blur < min_width && !Range{0.25, 0.85}.holds(form.depth)) return {};
+    const bool is_thin = size.width - form.blur < min_width;
+    if (is_thin && !Range{0.25, 0.85}.holds(form.depth)) return {};
+    // DIN 18101: leaves are 1.985 and 2.11 high, and to 1.0 wide.
+    if (is_thin && size.length <= 1.05 && Range{1.93, 2.15}.holds(form.top)) return {};
+    // Noise makes layers of walls, which look like boxes; wardrobes stand before a wall.
+    constexpr double strong_blur = 0.08;
+    constexpr double max_free = 1.1;
+    if (form.depth == 0.0 && form.blur > strong_blur && size.length > max_free) return {};
     // Columns and pipes.
     if (form.reaches_ceiling && size.length < 0.6) return {};
     if (size.length < 0.38) return {};
@@ -346,7 +364,9 @@ PieceVerdict judge_plain(const PieceForm& form) {
 /// A tall box before a wall whose lower part no ray reached, as scanners see it that look only so
 /// far down: what hangs begins higher, what stands on something has that below.
 bool is_box_seen_above(const PieceForm& form) {
-    return form.bottom < min_hanging_bottom && Range{0.25, 0.75}.holds(form.depth) &&
+    constexpr double min_seen = 0.5;  // m of its height
+    return form.bottom < min_hanging_bottom && form.top - form.bottom >= min_seen &&
+           Range{0.25, 0.75}.holds(form.depth) &&
            form.planar >= 0.9 && form.upright >= 0.85;
 }
 
