@@ -203,6 +203,12 @@ struct Cut {
     double area = 0.0;  ///< m2, of both rectangles together
 };
 
+/// m: a piece of a row is not narrower than a kitchen's narrowest unit.
+constexpr double min_part = 0.3;
+
+/// m2 that a cut has to save: rims are not straight.
+constexpr double cut_toll = 0.1;
+
 /// Squares of the plan that a slab covers, along its rectangle.
 class CoveredSquares {
   public:
@@ -267,17 +273,13 @@ struct Partition {
 
 Partition best_partition(const CoveredSquares& squares, const CoveredSquares::Window& window,
                          double edge, int depth) {
-    // A piece of a row is not narrower than a kitchen's narrowest unit.
-    constexpr double least = 0.3;
-    // m2 that a cut has to save: rims are not straight.
-    constexpr double toll = 0.1;
     const CoveredSquares::Window tight = squares.bounds(window);
     Partition best{squares.area(tight), 0, 0};
     const std::array<double, 2> extents{squares.extent(tight, 0), squares.extent(tight, 1)};
     const bool fits = std::min(extents[0], extents[1]) <= max_table_width &&
                       std::max(extents[0], extents[1]) <= max_table_length;
     if (fits || depth == 0) return best;
-    const int margin = static_cast<int>(std::ceil(least / edge));
+    const int margin = static_cast<int>(std::ceil(min_part / edge));
     for (const std::size_t direction : {std::size_t{0}, std::size_t{1}}) {
         for (int at = tight.low[direction] + margin; at + margin <= tight.high[direction]; ++at) {
             CoveredSquares::Window low = tight;
@@ -285,17 +287,43 @@ Partition best_partition(const CoveredSquares& squares, const CoveredSquares::Wi
             low.high[direction] = at;
             high.low[direction] = at;
             const double area = best_partition(squares, low, edge, depth - 1).area +
-                                best_partition(squares, high, edge, depth - 1).area + toll;
+                                best_partition(squares, high, edge, depth - 1).area + cut_toll;
             if (area < best.area) best = {area, direction, at};
         }
     }
     return best;
 }
 
+/// The best single cut, in rectangles that lie as they like.
+Cut find_single_cut(std::span<const Eigen::Vector2d> places, const PlanRectangle& rectangle,
+                    double step) {
+    Cut best;
+    best.area = rectangle.area();
+    std::vector<Eigen::Vector2d> low;
+    std::vector<Eigen::Vector2d> high;
+    for (const Eigen::Vector2d& direction : {Eigen::Vector2d(rectangle.axis), rectangle.across()}) {
+        const double extent = direction == rectangle.axis ? rectangle.length : rectangle.width;
+        const double middle = rectangle.center.dot(direction);
+        for (double at = middle - extent / 2.0 + min_part; at <= middle + extent / 2.0 - min_part;
+             at += step) {
+            low.clear();
+            high.clear();
+            for (const Eigen::Vector2d& place : places)
+                (place.dot(direction) < at ? low : high).push_back(place);
+            const double area = smallest_rectangle(low).area() + smallest_rectangle(high).area();
+            if (area < best.area) best = {direction, at, area};
+        }
+    }
+    return best;
+}
+
+/// A single cut, or the first of several where these hold the slab in less.
 Cut find_cut(std::span<const Eigen::Vector2d> places, const PlanRectangle& rectangle, double edge) {
     constexpr int max_depth = 2;
+    const Cut single = find_single_cut(places, rectangle, edge);
     const CoveredSquares squares(places, rectangle, edge);
     const Partition best = best_partition(squares, squares.whole(), edge, max_depth);
+    if (single.area + cut_toll <= best.area) return single;
     const Eigen::Vector2d direction = best.direction == 0 ? rectangle.axis : rectangle.across();
     const double extent = best.direction == 0 ? rectangle.length : rectangle.width;
     return {direction, rectangle.center.dot(direction) - extent / 2.0 + edge * best.at, best.area};

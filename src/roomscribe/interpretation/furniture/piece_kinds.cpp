@@ -244,6 +244,9 @@ PieceVerdict judge_table(const PieceForm& form) {
     }
     // Desks are 0.6 deep at least; what is less is a part, or the back of a sofa.
     constexpr double min_table_width = 0.5;
+    constexpr double partly_closed = 0.4;
+    if (size.width < min_table_width && form.is_at_wall && form.closed >= partly_closed)
+        return furniture("cabinet", "top of a cabinet's depth at a wall", 0.65);
     if (size.width < min_table_width)
         return furniture("table", "part of a top at a table's height", 0.3, "thing");
     if (size.width <= 0.85 && size.length >= 1.0)

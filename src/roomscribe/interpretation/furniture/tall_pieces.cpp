@@ -27,6 +27,8 @@ constexpr double filled_to = 1.2;
 constexpr double level_height = 0.1;
 constexpr std::size_t num_levels = 9;
 constexpr std::size_t min_filled_levels = 6;
+/// m: of what stands on a worktop or a desk a column shows only what is higher.
+constexpr double max_lowest = 0.7;
 /// Fewer voxels are no side of a tall piece: 1.2 m x 8 cm in 4 cm.
 constexpr std::size_t min_voxels = 60;
 /// m: what stands shows a decimeter or two of itself below.
@@ -52,6 +54,17 @@ bool has_gap(std::span<const double> heights, double from) {
     for (const double height : heights) {
         if (height - last > max_board_gap) return true;
         last = std::max(last, height);
+    }
+    return false;
+}
+
+/// Whether a column ends at a worktop's height and goes on where wall units begin.
+bool parts_at_worktop(std::span<const double> heights) {
+    constexpr double lowest = 0.7;
+    constexpr double highest = 1.3;
+    for (std::size_t i = 1; i < heights.size(); ++i) {
+        const double below = heights[i - 1];
+        if (below >= lowest && below <= highest && heights[i] - below > max_board_gap) return true;
     }
     return false;
 }
@@ -88,7 +101,7 @@ std::vector<std::uint32_t> find_tall_voxels(const FurnitureVoxels& all) {
         }
         std::sort(heights.begin(), heights.end());
         if (top < min_tall || filled.count() < min_filled_levels) continue;
-        if (has_gap(heights, filled_from)) continue;
+        if (heights.front() > max_lowest || parts_at_worktop(heights)) continue;
         for (std::size_t k = begin; k < end; ++k)
             tall.push_back(columns[k].voxel);
     }
