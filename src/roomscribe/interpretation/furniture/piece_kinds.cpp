@@ -258,7 +258,7 @@ PieceVerdict judge_tall(const PieceForm& form) {
     const PlanRectangle& size = form.rectangle;
     if (form.planar < min_planar || form.face < 0.2) return {};
     // Of a box a front, a side and a top are seen; between boards there are many faces.
-    const bool may_be_open = form.level >= 0.08 && size.length >= 0.6 && form.depth <= 0.5;
+    const bool may_be_open = form.level >= 0.08 && size.length >= 0.6 && form.depth <= 0.6;
     if (form.face < 0.25 * form.surface && !may_be_open) return {};
     // A leaf that stands open and a wall beyond a doorway are thin; of a front the wall is as far
     // behind as the piece is deep.
@@ -274,7 +274,7 @@ PieceVerdict judge_tall(const PieceForm& form) {
     // Columns and pipes.
     if (form.reaches_ceiling && size.length < 0.6) return {};
     if (size.length < 0.38) return {};
-    if (size.width <= 0.45 && (form.num_slabs >= 2 || form.level > 0.15))
+    if (size.width <= 0.5 && (form.num_slabs >= 2 || form.level > 0.15))
         return furniture("shelf", "boards above each other", 0.8);
     if (Range{0.5, 0.75}.holds(size.length) && size.width >= 0.45)
         return furniture("fridge", "tall box of a fridge's size", 0.7);
