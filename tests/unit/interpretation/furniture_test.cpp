@@ -12,6 +12,7 @@
 #include "roomscribe/core/random.hpp"
 #include "roomscribe/core/units.hpp"
 #include "roomscribe/interpretation/furniture/level_slabs.hpp"
+#include "roomscribe/interpretation/furniture/piece_kinds.hpp"
 #include "roomscribe/interpretation/furniture/plan_rectangle.hpp"
 #include "roomscribe/interpretation/point_labels.hpp"
 #include "roomscribe/interpretation/upright/upright.hpp"
@@ -258,6 +259,59 @@ TEST(FindFurniture, LeavesWhatStandsOnATableUnknown) {
     EXPECT_LT(best_iou(made, found, 2), 0.1);
 }
 
+TEST(FindFurniture, KeepsARowWholeThatThingsStandOn) {
+    MadeUpRoom made;
+    made.in_row(1.2, 3.0, 0.6, 1.6, 1);
+    made.box({1.6, 0.2, 0.0}, 0.0, {0.5, 0.3, 0.3}, 2, 1.6);
+    const Found found = find(made.cloud);
+    EXPECT_GT(best_iou(made, found, 1), 0.8);
+}
+
+TEST(FindFurniture, FindsWhatHangsOverThingsOnAWorktop) {
+    MadeUpRoom made;
+    made.in_row(1.2, 3.2, 0.6, 0.9, 1);
+    made.box({2.2, 0.2, 0.0}, 0.0, {2.0, 0.36, 0.7}, 2, 1.4);
+    made.box({2.0, 0.2, 0.0}, 0.0, {0.12, 0.12, 0.5}, 3, 0.9);  // touches both
+    const Found found = find(made.cloud);
+    EXPECT_GT(best_iou(made, found, 1), 0.7);
+    EXPECT_GT(best_iou(made, found, 2), 0.7);
+}
+
+TEST(FindFurniture, TellsAChestFromTheScreenOnIt) {
+    MadeUpRoom made;
+    made.box({2.0, 0.25, 0.0}, 0.0, {1.6, 0.4, 0.5}, 1);
+    made.box({2.0, 0.25, 0.0}, 0.0, {1.3, 0.05, 0.8}, 2, 0.55);
+    const Found found = find(made.cloud);
+    const auto pieces = pieces_of(found);
+    ASSERT_EQ(pieces.size(), 1U);
+    EXPECT_EQ(pieces[0]->kind, "tv_unit");
+    EXPECT_GT(best_iou(made, found, 1), 0.7);
+}
+
+TEST(FindFurniture, PartsChairsSideBySide) {
+    MadeUpRoom made;
+    made.chair({2.2, 2.0, 0.0}, 0.0, 1);
+    made.chair({2.77, 2.0, 0.0}, 0.0, 2);
+    const Found found = find(made.cloud);
+    EXPECT_EQ(pieces_of(found).size(), 2U);
+    EXPECT_GT(best_iou(made, found, 1), 0.7);
+    EXPECT_GT(best_iou(made, found, 2), 0.7);
+}
+
+TEST(FindFurniture, PartsDesksThatTouchAtCornersOfOneAnother) {
+    // Two that face each other, a third across their end, a fourth that goes on from it.
+    MadeUpRoom made;
+    made.table({1.7, 1.35, 0.0}, radians(90.0), 1.6, 0.7, 0.74, 1);
+    made.table({2.4, 1.35, 0.0}, radians(90.0), 1.6, 0.7, 0.74, 2);
+    made.table({2.75, 2.55, 0.0}, 0.0, 1.4, 0.8, 0.74, 3);
+    made.table({3.8, 2.25, 0.0}, radians(90.0), 1.4, 0.7, 0.74, 4);
+    made.chair({1.3, 1.4, 0.0}, radians(90.0), 5);
+    made.chair({2.8, 1.2, 0.0}, radians(-90.0), 6);
+    const Found found = find(made.cloud);
+    for (const int thing : {1, 2, 3, 4})
+        EXPECT_GT(best_iou(made, found, thing), 0.6) << thing;
+}
+
 TEST(FindFurniture, CallsAThinThingBeforeAWallARadiator) {
     MadeUpRoom made;
     made.box({2.5, 0.09, 0.0}, 0.0, {1.2, 0.1, 0.5}, 1, 0.12);
@@ -353,6 +407,96 @@ TEST(DetectFurnitureSurfaces, DropsClustersOfFewerThanFiveHundred) {
 
 TEST(DetectFurnitureSurfaces, FindsNothingInNothing) {
     EXPECT_TRUE(detect_furniture_surfaces({}, Eigen::Matrix3d::Identity(), 1).surfaces.empty());
+}
+
+TEST(SmallestRectangle, LiesAlongTheTwoSidesThatWereSeen) {
+    for (const double degrees : {10.0, 25.0, 40.0, 65.0, 80.0}) {
+        const Eigen::Vector2d u(std::cos(radians(degrees)), std::sin(radians(degrees)));
+        const Eigen::Vector2d v(-u.y(), u.x());
+        std::vector<Eigen::Vector2d> places;
+        for (int i = 0; i <= 20; ++i) {
+            places.emplace_back(0.04 * i * u);
+            places.emplace_back(0.03 * i * v);
+        }
+        const PlanRectangle rectangle = smallest_rectangle(places);
+        EXPECT_NEAR(rectangle.length, 0.8, 1e-6) << degrees;
+        EXPECT_NEAR(rectangle.width, 0.6, 1e-6) << degrees;
+        EXPECT_NEAR(std::abs(rectangle.axis.dot(u)), 1.0, 1e-6) << degrees;
+    }
+}
+
+/// What stands in the middle of a room, flat and upright.
+PieceForm upright_form(double length, double width, double bottom, double top) {
+    PieceForm form;
+    form.rectangle.length = length;
+    form.rectangle.width = width;
+    form.bottom = bottom;
+    form.top = top;
+    form.front_top = top;
+    form.upright = 0.9;
+    form.planar = 0.95;
+    form.surface = length * (top - bottom);
+    form.face = 0.8 * form.surface;
+    form.num_voxels = 300;
+    return form;
+}
+
+TEST(JudgePiece, TakesAFrontForACabinetOnlyAtItsDepthBeforeAWall) {
+    PieceForm front = upright_form(0.6, 0.06, 0.07, 1.0);
+    EXPECT_LT(judge_piece(front).confidence, 0.5);
+    front.depth = 0.5;
+    EXPECT_EQ(judge_piece(front).kind, "drawer_unit");
+    EXPECT_GE(judge_piece(front).confidence, 0.5);
+    // A radiator with its sill is lower.
+    EXPECT_LT(judge_piece(upright_form(1.2, 0.4, 0.1, 0.62)).confidence, 0.5);
+}
+
+TEST(JudgePiece, TellsALeafFromAFront) {
+    PieceForm sheet = upright_form(0.9, 0.06, 0.07, 2.0);
+    EXPECT_FALSE(judge_piece(sheet).is_furniture);
+    sheet.depth = 0.6;
+    EXPECT_FALSE(judge_piece(sheet).is_furniture);
+    PieceForm wide = upright_form(1.8, 0.06, 0.07, 2.0);
+    wide.depth = 0.6;
+    EXPECT_TRUE(judge_piece(wide).is_furniture);
+    // The wall beyond a doorway.
+    wide.depth = 0.0;
+    EXPECT_FALSE(judge_piece(wide).is_furniture);
+}
+
+TEST(JudgePiece, TakesNoiseFromTheThicknessOfASheet) {
+    PieceForm sheet = upright_form(1.8, 0.3, 0.07, 2.0);
+    sheet.depth = 2.0;
+    EXPECT_TRUE(judge_piece(sheet).is_furniture);
+    sheet.blur = 0.12;
+    EXPECT_FALSE(judge_piece(sheet).is_furniture);
+}
+
+TEST(JudgePiece, TakesWhatIsLikeAChairForOneInTheOpenOnly) {
+    PieceForm form = upright_form(0.6, 0.5, 0.06, 1.0);
+    form.planar = 0.6;
+    form.face = 0.2;
+    EXPECT_EQ(judge_piece(form).kind, "chair");
+    EXPECT_GE(judge_piece(form).confidence, 0.5);
+    form.depth = 0.55;  // a plant
+    EXPECT_LT(judge_piece(form).confidence, 0.5);
+}
+
+TEST(JudgePiece, AsksOfSeatsAndTopsTheirSizes) {
+    PieceForm stool = upright_form(0.36, 0.34, 0.06, 0.46);
+    stool.num_slabs = 1;
+    stool.seat = 0.45;
+    stool.highest_slab = 0.45;
+    EXPECT_EQ(judge_piece(stool).kind, "stool");
+    stool.rectangle.length = 0.6;  // a bag
+    EXPECT_FALSE(judge_piece(stool).is_furniture);
+    PieceForm desk = upright_form(1.5, 0.7, 0.06, 0.75);
+    desk.num_slabs = 1;
+    desk.seat = 0.74;
+    desk.highest_slab = 0.74;
+    EXPECT_EQ(judge_piece(desk).kind, "desk");
+    desk.rectangle.width = 0.4;  // the back of a sofa
+    EXPECT_LT(judge_piece(desk).confidence, 0.5);
 }
 
 TEST(SmallestRectangle, FollowsATurnedRectangle) {

@@ -308,8 +308,8 @@ bool is_box_at_wall(const PieceForm& form) {
     const bool is_face = form.face >= min_front * form.surface && form.upright >= 0.75;
     const bool has_two_sides = form.top >= 0.7 && form.rectangle.width >= 0.35 &&
                                form.bottom <= 0.35 && (is_smooth || is_face);
-    const bool has_front = form.top >= 0.78 && form.rectangle.length >= min_length &&
-                           form.bottom <= 0.2 && is_face;
+    const bool has_front =
+        form.top >= 0.78 && form.rectangle.length >= min_length && form.bottom <= 0.2 && is_face;
     return (has_two_sides || has_front) && Range{0.35, max_depth}.holds(form.depth) &&
            form.rectangle.width <= max_depth && form.upright >= 0.62;
 }
@@ -319,11 +319,10 @@ bool is_box_at_wall(const PieceForm& form) {
 bool is_chair_in_open(const PieceForm& form) {
     constexpr double min_clearance = 0.78;  // m: of its front from a wall
     constexpr double max_back = 0.45;       // m2, more than the back of any office chair
-    return (form.depth == 0.0 || form.depth >= min_clearance) &&
-           Range{0.8, 1.2}.holds(form.top) && form.bottom <= max_standing_bottom &&
-           Range{0.44, 0.75}.holds(form.rectangle.length) && form.rectangle.width >= 0.22 &&
-           form.planar >= 0.4 && form.upright <= 0.93 && form.face >= 0.08 &&
-           form.face <= max_back;
+    return (form.depth == 0.0 || form.depth >= min_clearance) && Range{0.8, 1.2}.holds(form.top) &&
+           form.bottom <= max_standing_bottom && Range{0.44, 0.75}.holds(form.rectangle.length) &&
+           form.rectangle.width >= 0.22 && form.planar >= 0.4 && form.upright <= 0.93 &&
+           form.face >= 0.08 && form.face <= max_back;
 }
 
 /// The fronts of a kitchen's row whose worktop was not seen.
@@ -367,9 +366,10 @@ PieceVerdict judge_plain(const PieceForm& form) {
 /// A tall box before a wall whose lower part no ray reached, as scanners see it that look only so
 /// far down: what hangs begins higher, what stands on something has that below.
 bool is_box_seen_above(const PieceForm& form) {
-    constexpr double min_seen = 0.5;  // m of its height
+    constexpr double min_seen = 0.5;    // m of its height
+    constexpr double min_width = 0.15;  // m: a screen is thinner
     return form.bottom < min_hanging_bottom && form.top - form.bottom >= min_seen &&
-           Range{0.25, 0.75}.holds(form.depth) &&
+           form.rectangle.width - form.blur >= min_width && Range{0.25, 0.75}.holds(form.depth) &&
            form.planar >= 0.9 && form.upright >= 0.85;
 }
 

@@ -16,12 +16,12 @@ namespace roomscribe {
 /// A draft's size and form.
 struct PieceForm {
     PlanRectangle rectangle;
-    double bottom = 0.0;   ///< m above the floor
-    double top = 0.0;      ///< m above the floor
-    double front_top = 0.0;  ///< m above the floor, where its front ends
-    double level = 0.0;    ///< share of the voxels that are level
-    double upright = 0.0;  ///< share of the voxels that are upright
-    double seat = 0.0;     ///< m above the floor, of its main slab; 0 for none
+    double bottom = 0.0;        ///< m above the floor
+    double top = 0.0;           ///< m above the floor
+    double front_top = 0.0;     ///< m above the floor, where its front ends
+    double level = 0.0;         ///< share of the voxels that are level
+    double upright = 0.0;       ///< share of the voxels that are upright
+    double seat = 0.0;          ///< m above the floor, of its main slab; 0 for none
     double highest_slab = 0.0;  ///< m above the floor; 0 for none
     double closed = 0.0;   ///< share of the sides below the main slab that upright surface closes
     double surface = 0.0;  ///< m2, of all voxels

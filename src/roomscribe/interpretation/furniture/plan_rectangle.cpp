@@ -50,7 +50,7 @@ PlanRectangle smallest_rectangle(std::span<const Eigen::Vector2d> places) {
     if (places.empty()) return {};
     const std::vector<Eigen::Vector2d> hull = convex_hull(places);
     const PlanRectangle straight = rectangle_along(places, Eigen::Vector2d::UnitX());
-    std::vector<PlanRectangle> turned;
+    std::vector<PlanRectangle> turned{straight};
     double smallest = straight.area();
     for (std::size_t i = 0; i < hull.size(); ++i) {
         const Eigen::Vector2d edge = hull[(i + 1) % hull.size()] - hull[i];
@@ -58,16 +58,18 @@ PlanRectangle smallest_rectangle(std::span<const Eigen::Vector2d> places) {
         turned.push_back(rectangle_along(hull, edge.normalized()));
         smallest = std::min(smallest, turned.back().area());
     }
-    constexpr double nearly = 1.1;
-    if (straight.area() <= nearly * smallest) return straight;
     // Two sides of a box fill half of its rectangle, and half of the one along the diagonal, to the
     // last bit: of those that are as small, the one whose edges the places lie on.
+    constexpr double nearly = 1.1;
+    constexpr double as_near = 1.5;
+    constexpr double rounding = 1e-9;
     const PlanRectangle* best = nullptr;
     double nearest = std::numeric_limits<double>::infinity();
     for (const PlanRectangle& rectangle : turned) {
-        if (rectangle.area() > nearly * smallest) continue;
+        if (rectangle.area() > nearly * smallest + rounding) continue;
         const double distance = distance_to_edges(places, rectangle);
-        if (distance >= nearest) continue;
+        const bool is_straight = best == turned.data();
+        if (best && distance * (is_straight ? as_near : 1.0) >= nearest) continue;
         nearest = distance;
         best = &rectangle;
     }

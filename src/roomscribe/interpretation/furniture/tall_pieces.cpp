@@ -205,9 +205,9 @@ void join_boxes(const FurnitureVoxels& all, std::vector<TallBox>& boxes) {
 }
 
 /// Whether it stands on the floor by what its columns show: screens on chests and tables do not,
-/// which begin at 0.5 m and higher.
+/// which begin where chests end, at 0.4 m and higher.
 bool stands_on_floor(const FurnitureVoxels& all, const TallBox& box) {
-    constexpr double low = 0.5;
+    constexpr double low = 0.45;
     constexpr double min_share = 0.3;  // of the columns; of others something hides the lower part
     std::vector<std::pair<std::array<std::int32_t, 2>, bool>> columns;
     for (const std::uint32_t i : box.voxels) {
@@ -296,9 +296,8 @@ std::vector<PieceDraft> draft_hanging_pieces(FurnitureVoxels& all) {
     std::vector<bool> goes_on_below = find_columns_below(all);
     std::vector<PieceDraft> drafts;
     for (std::vector<std::uint32_t>& members : connected_voxels(all, high, is_high)) {
-        const auto standing =
-            std::count_if(members.begin(), members.end(),
-                          [&](std::uint32_t i) { return goes_on_below[i]; });
+        const auto standing = std::count_if(members.begin(), members.end(),
+                                            [&](std::uint32_t i) { return goes_on_below[i]; });
         if (static_cast<double>(standing) > max_standing * static_cast<double>(members.size()))
             continue;
         for (const std::uint32_t i : members)

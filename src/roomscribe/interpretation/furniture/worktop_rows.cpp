@@ -36,8 +36,8 @@ RowPart measure(const FurnitureVoxels& all, std::span<const LevelSlab> slabs,
                 const std::vector<PieceDraft>& drafts, std::size_t number) {
     const PieceDraft& draft = drafts[number];
     RowPart part{number, smallest_rectangle(places_of(all, draft.voxels)), 0.0};
-    part.height = draft.slabs.empty() ? front_top(all, draft.voxels)
-                                      : slabs[draft.slabs.front()].height;
+    part.height =
+        draft.slabs.empty() ? front_top(all, draft.voxels) : slabs[draft.slabs.front()].height;
     return part;
 }
 
