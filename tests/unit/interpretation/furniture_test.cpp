@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,8 @@
 #include "roomscribe/interpretation/furniture/level_slabs.hpp"
 #include "roomscribe/interpretation/furniture/piece_kinds.hpp"
 #include "roomscribe/interpretation/furniture/plan_rectangle.hpp"
+#include "roomscribe/interpretation/furniture/row_cuts.hpp"
+#include "roomscribe/interpretation/furniture/tall_pieces.hpp"
 #include "roomscribe/interpretation/point_labels.hpp"
 #include "roomscribe/interpretation/upright/upright.hpp"
 #include "roomscribe/preprocessing/scan_statistics.hpp"
@@ -259,24 +262,6 @@ TEST(FindFurniture, LeavesWhatStandsOnATableUnknown) {
     EXPECT_LT(best_iou(made, found, 2), 0.1);
 }
 
-TEST(FindFurniture, KeepsARowWholeThatThingsStandOn) {
-    MadeUpRoom made;
-    made.in_row(1.2, 3.0, 0.6, 1.6, 1);
-    made.box({1.6, 0.2, 0.0}, 0.0, {0.5, 0.3, 0.3}, 2, 1.6);
-    const Found found = find(made.cloud);
-    EXPECT_GT(best_iou(made, found, 1), 0.8);
-}
-
-TEST(FindFurniture, FindsWhatHangsOverThingsOnAWorktop) {
-    MadeUpRoom made;
-    made.in_row(1.2, 3.2, 0.6, 0.9, 1);
-    made.box({2.2, 0.2, 0.0}, 0.0, {2.0, 0.36, 0.7}, 2, 1.4);
-    made.box({2.0, 0.2, 0.0}, 0.0, {0.12, 0.12, 0.5}, 3, 0.9);  // touches both
-    const Found found = find(made.cloud);
-    EXPECT_GT(best_iou(made, found, 1), 0.7);
-    EXPECT_GT(best_iou(made, found, 2), 0.7);
-}
-
 TEST(FindFurniture, TellsAChestFromTheScreenOnIt) {
     MadeUpRoom made;
     made.box({2.0, 0.25, 0.0}, 0.0, {1.6, 0.4, 0.5}, 1);
@@ -286,16 +271,6 @@ TEST(FindFurniture, TellsAChestFromTheScreenOnIt) {
     ASSERT_EQ(pieces.size(), 1U);
     EXPECT_EQ(pieces[0]->kind, "tv_unit");
     EXPECT_GT(best_iou(made, found, 1), 0.7);
-}
-
-TEST(FindFurniture, PartsChairsSideBySide) {
-    MadeUpRoom made;
-    made.chair({2.2, 2.0, 0.0}, 0.0, 1);
-    made.chair({2.77, 2.0, 0.0}, 0.0, 2);
-    const Found found = find(made.cloud);
-    EXPECT_EQ(pieces_of(found).size(), 2U);
-    EXPECT_GT(best_iou(made, found, 1), 0.7);
-    EXPECT_GT(best_iou(made, found, 2), 0.7);
 }
 
 TEST(FindFurniture, PartsDesksThatTouchAtCornersOfOneAnother) {
@@ -423,6 +398,95 @@ TEST(SmallestRectangle, LiesAlongTheTwoSidesThatWereSeen) {
         EXPECT_NEAR(rectangle.width, 0.6, 1e-6) << degrees;
         EXPECT_NEAR(std::abs(rectangle.axis.dot(u)), 1.0, 1e-6) << degrees;
     }
+}
+
+/// Voxels of 4 cm that fill boxes, and which of them are neighbours.
+class MadeUpVoxels {
+  public:
+    static constexpr double edge = 0.04;
+
+    void fill(const Vector3d& low, const Vector3d& high, bool is_level = false) {
+        for (double x = low.x(); x <= high.x() + 1e-9; x += edge) {
+            for (double y = low.y(); y <= high.y() + 1e-9; y += edge) {
+                for (double z = low.z(); z <= high.z() + 1e-9; z += edge) {
+                    FurnitureVoxel voxel;
+                    voxel.place = {x, y, z};
+                    voxel.height = z;
+                    voxel.is_level = is_level;
+                    voxel.is_upright = !is_level;
+                    voxel.is_core = true;
+                    all_.voxels.push_back(voxel);
+                }
+            }
+        }
+    }
+
+    FurnitureVoxels finish() {
+        all_.reach = 2.0 * edge;
+        all_.first.assign(1, 0);
+        for (std::uint32_t i = 0; i < all_.voxels.size(); ++i) {
+            for (std::uint32_t j = 0; j < all_.voxels.size(); ++j) {
+                const double distance = (all_.voxels[i].place - all_.voxels[j].place).norm();
+                if (i != j && distance <= all_.reach + 1e-9) all_.neighbors.push_back(j);
+            }
+            all_.first.push_back(all_.neighbors.size());
+        }
+        return all_;
+    }
+
+  private:
+    FurnitureVoxels all_;
+};
+
+TEST(CutRow, KeepsARowWholeThatThingsStandOn) {
+    MadeUpVoxels made;
+    made.fill({0.0, 0.6, 0.1}, {1.8, 0.6, 0.9});   // its front
+    made.fill({0.0, 0.1, 0.9}, {1.8, 0.56, 0.9});  // its top
+    made.fill({0.3, 0.2, 0.94}, {0.9, 0.3, 1.2});
+    const FurnitureVoxels all = made.finish();
+    std::vector<std::uint32_t> members(all.voxels.size());
+    std::iota(members.begin(), members.end(), 0U);
+    EXPECT_EQ(cut_row(all, members).size(), 1U);
+    EXPECT_NEAR(front_top(all, members), 0.9, MadeUpVoxels::edge);
+}
+
+TEST(CutRow, CutsWhereTheFrontEndsLower) {
+    MadeUpVoxels made;
+    made.fill({0.0, 0.6, 0.1}, {0.9, 0.6, 0.9});
+    made.fill({0.94, 0.6, 0.1}, {1.8, 0.6, 0.7});
+    const FurnitureVoxels all = made.finish();
+    std::vector<std::uint32_t> members(all.voxels.size());
+    std::iota(members.begin(), members.end(), 0U);
+    EXPECT_EQ(cut_row(all, members).size(), 2U);
+}
+
+TEST(DraftHangingPieces, FindsWhatHangsOverThingsOnAWorktop) {
+    MadeUpVoxels made;
+    made.fill({0.0, 0.36, 1.4}, {1.6, 0.36, 2.0});  // the front of a wall unit
+    const std::size_t num_hanging = 41 * 16;
+    made.fill({0.4, 0.36, 0.9}, {0.52, 0.36, 1.36});  // a bottle that touches it
+    FurnitureVoxels all = made.finish();
+    const std::vector<PieceDraft> drafts = draft_hanging_pieces(all);
+    ASSERT_EQ(drafts.size(), 1U);
+    EXPECT_NEAR(static_cast<double>(drafts[0].voxels.size()), num_hanging, 20.0);
+}
+
+TEST(DraftHangingPieces, LeavesWhatStands) {
+    MadeUpVoxels made;
+    made.fill({0.0, 0.36, 0.9}, {1.6, 0.36, 2.0});
+    FurnitureVoxels all = made.finish();
+    EXPECT_TRUE(draft_hanging_pieces(all).empty());
+}
+
+TEST(FindLevelSlabs, PartsSeatsThatNoiseTiesTogether) {
+    MadeUpVoxels made;
+    made.fill({0.0, 0.0, 0.45}, {0.44, 0.44, 0.45}, true);
+    made.fill({0.56, 0.0, 0.45}, {1.0, 0.44, 0.45}, true);
+    made.fill({0.48, 0.2, 0.45}, {0.52, 0.24, 0.45}, true);
+    EXPECT_EQ(find_level_slabs(made.finish(), MadeUpVoxels::edge).size(), 2U);
+    MadeUpVoxels bench;
+    bench.fill({0.0, 0.0, 0.45}, {1.0, 0.44, 0.45}, true);
+    EXPECT_EQ(find_level_slabs(bench.finish(), MadeUpVoxels::edge).size(), 1U);
 }
 
 /// What stands in the middle of a room, flat and upright.
