@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,7 @@
 #include "roomscribe/core/random.hpp"
 #include "roomscribe/core/units.hpp"
 #include "roomscribe/interpretation/furniture/level_slabs.hpp"
+#include "roomscribe/interpretation/furniture/piece_faces.hpp"
 #include "roomscribe/interpretation/furniture/piece_kinds.hpp"
 #include "roomscribe/interpretation/furniture/plan_rectangle.hpp"
 #include "roomscribe/interpretation/furniture/row_cuts.hpp"
@@ -487,6 +489,34 @@ TEST(FindLevelSlabs, PartsSeatsThatNoiseTiesTogether) {
     MadeUpVoxels bench;
     bench.fill({0.0, 0.0, 0.45}, {1.0, 0.44, 0.45}, true);
     EXPECT_EQ(find_level_slabs(bench.finish(), MadeUpVoxels::edge).size(), 1U);
+}
+
+/// Panels of a front of 1.2 x 0.8 m, down the middle of which a line lies deeper.
+std::size_t num_panels_of_front(double noise, double gap_depth) {
+    Random random{5};
+    PointCloud cloud;
+    for (double x = 0.0; x <= 1.2; x += 0.005) {
+        for (double z = 0.0; z <= 0.8; z += 0.005) {
+            const bool is_gap = std::abs(x - 0.6) < 0.003;
+            const double y = is_gap ? -gap_depth : noise * random.normal();
+            cloud.positions.emplace_back(static_cast<float>(x), static_cast<float>(y),
+                                         static_cast<float>(z));
+        }
+    }
+    SurfaceSample sample;
+    sample.cloud.positions.emplace_back(0.0F, 0.0F, 0.0F);
+    sample.voxel_of_point.assign(cloud.size(), 0U);
+    FrontSide side;
+    side.plane = {Vector3d::UnitY(), 0.0};
+    side.along = -Vector3d::UnitX();
+    side.voxels = {0U};
+    return find_front_panels(cloud, sample, std::span(&side, 1), Vector3d::UnitZ()).size();
+}
+
+TEST(FindFrontPanels, PartsAFrontOnlyWhereNoiseLetsGapsShow) {
+    EXPECT_EQ(num_panels_of_front(0.002, 0.015), 2U);
+    // What lies so deep in so much noise is a wave of it.
+    EXPECT_EQ(num_panels_of_front(0.010, 0.035), 1U);
 }
 
 /// What stands in the middle of a room, flat and upright.
