@@ -218,7 +218,8 @@ class CoveredSquares {
         const Eigen::Vector2d half(0.5 * rectangle.length, 0.5 * rectangle.width);
         const auto squares = [&](double extent) { return static_cast<int>(extent / edge) + 1; };
         size_ = {squares(rectangle.length), squares(rectangle.width)};
-        is_covered_.assign(static_cast<std::size_t>(size_[0] * size_[1]), false);
+        is_covered_.assign(static_cast<std::size_t>(size_[0]) * static_cast<std::size_t>(size_[1]),
+                           false);
         for (const Eigen::Vector2d& place : places) {
             const Eigen::Vector2d from = place - rectangle.center;
             const Eigen::Vector2d at =
@@ -256,7 +257,10 @@ class CoveredSquares {
     double area(const Window& window) const { return extent(window, 0) * extent(window, 1); }
 
   private:
-    std::size_t index(int x, int y) const { return static_cast<std::size_t>(y * size_[0] + x); }
+    std::size_t index(int x, int y) const {
+        return static_cast<std::size_t>(y) * static_cast<std::size_t>(size_[0]) +
+               static_cast<std::size_t>(x);
+    }
 
     double edge_;
     std::array<int, 2> size_{};
@@ -320,7 +324,7 @@ Cut find_single_cut(std::span<const Eigen::Vector2d> places, const PlanRectangle
 /// A single cut, or the first of several where these hold the slab in less.
 Cut find_cut(std::span<const Eigen::Vector2d> places, const PlanRectangle& rectangle, double edge) {
     constexpr int max_depth = 2;
-    const Cut single = find_single_cut(places, rectangle, edge);
+    Cut single = find_single_cut(places, rectangle, edge);
     const CoveredSquares squares(places, rectangle, edge);
     const Partition best = best_partition(squares, squares.whole(), edge, max_depth);
     if (single.area + cut_toll <= best.area) return single;
@@ -471,7 +475,7 @@ std::optional<Cut> cut_seats(const FurnitureVoxels& all, std::span<const Eigen::
 std::optional<Cut> choose_cut(const FurnitureVoxels& all, std::span<const Eigen::Vector2d> places,
                               const LevelSlab& slab, double voxel_size) {
     const PlanRectangle& rectangle = slab.rectangle;
-    if (const std::optional<Cut> cut = cut_seats(all, places, slab, voxel_size)) return cut;
+    if (std::optional<Cut> cut = cut_seats(all, places, slab, voxel_size)) return cut;
     if (rectangle.width <= max_table_width + 0.1) return cut_desks(all, slab);
     // What fills less than this of its rectangle is an L or several at angles.
     constexpr double min_fill = 0.8;

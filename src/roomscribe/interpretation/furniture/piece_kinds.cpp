@@ -207,7 +207,6 @@ PieceVerdict judge_seat(const PieceForm& form) {
     constexpr double min_stool = 0.28;
     constexpr double max_elongation = 1.45;
     const bool is_square = form.rectangle.length <= max_elongation * form.rectangle.width;
-    if (form.rectangle.width < 0.24) return {};
     // Cartons and bins stand anywhere, small chests at a wall.
     if (form.closed > 0.7 && !form.is_at_wall) return {};
     if (form.closed > 0.7 && is_nightstand(form))

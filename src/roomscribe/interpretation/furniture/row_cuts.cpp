@@ -52,6 +52,7 @@ Profile measure_profile(const FurnitureVoxels& all, std::span<const std::uint32_
         // Not the outermost voxels, which may be strays.
         const bool is_seen = places.size() >= 3;
         std::vector<double> depths;
+        depths.reserve(places.size());
         for (const auto& [height, depth] : places)
             depths.push_back(depth);
         const double front = is_seen ? quantile(depths, 0.95) : nothing;
