@@ -473,6 +473,14 @@ TEST(DraftHangingPieces, FindsWhatHangsOverThingsOnAWorktop) {
     EXPECT_NEAR(static_cast<double>(drafts[0].voxels.size()), num_hanging, 20.0);
 }
 
+TEST(DraftHangingPieces, FindsWhatHangsOverThingsThatDoNotTouchIt) {
+    MadeUpVoxels made;
+    made.fill({0.0, 0.36, 1.44}, {1.6, 0.36, 2.0});
+    made.fill({0.0, 0.36, 0.9}, {1.2, 0.36, 1.2});
+    FurnitureVoxels all = made.finish();
+    EXPECT_EQ(draft_hanging_pieces(all).size(), 1U);
+}
+
 TEST(DraftHangingPieces, LeavesWhatStands) {
     MadeUpVoxels made;
     made.fill({0.0, 0.36, 0.9}, {1.6, 0.36, 2.0});

@@ -109,10 +109,12 @@ std::vector<std::uint32_t> find_tall_voxels(const FurnitureVoxels& all) {
     return tall;
 }
 
-/// For each voxel whether its column shows something in the decimeters below where hanging things
-/// begin.
+/// For each voxel whether its column goes on without a gap from where hanging things begin into the
+/// decimeters below.
 std::vector<bool> find_columns_below(const FurnitureVoxels& all) {
+    constexpr double max_gap = 0.12;  // m: a voxel or two
     std::vector<std::array<std::int32_t, 4>> below;
+    std::vector<std::array<std::int32_t, 4>> right_above;
     const auto key = [&](const FurnitureVoxel& voxel) {
         return std::array<std::int32_t, 4>{
             static_cast<std::int32_t>(voxel.storey), voxel.room,
@@ -120,13 +122,20 @@ std::vector<bool> find_columns_below(const FurnitureVoxels& all) {
             static_cast<std::int32_t>(std::floor(voxel.place.y() / all.reach))};
     };
     for (const FurnitureVoxel& voxel : all.voxels) {
-        if (voxel.is_core && voxel.height >= filled_to - below_hanging && voxel.height < min_tall)
+        if (!voxel.is_core) continue;
+        if (voxel.height >= filled_to - below_hanging && voxel.height < min_tall)
             below.push_back(key(voxel));
+        if (voxel.height >= min_tall && voxel.height < min_tall + max_gap)
+            right_above.push_back(key(voxel));
     }
     std::sort(below.begin(), below.end());
+    std::sort(right_above.begin(), right_above.end());
     std::vector<bool> found(all.voxels.size(), false);
-    for (std::size_t i = 0; i < found.size(); ++i)
-        found[i] = std::binary_search(below.begin(), below.end(), key(all.voxels[i]));
+    for (std::size_t i = 0; i < found.size(); ++i) {
+        const auto column = key(all.voxels[i]);
+        found[i] = std::binary_search(below.begin(), below.end(), column) &&
+                   std::binary_search(right_above.begin(), right_above.end(), column);
+    }
     return found;
 }
 
