@@ -561,6 +561,8 @@ TEST(JudgePiece, TellsALeafFromAFront) {
     PieceForm wide = upright_form(1.8, 0.06, 0.07, 2.0);
     wide.depth = 0.6;
     EXPECT_TRUE(judge_piece(wide).is_furniture);
+    // A cupboard's front, whose wall was not found; a leaf is higher.
+    EXPECT_TRUE(judge_piece(upright_form(0.9, 0.06, 0.07, 1.8)).is_furniture);
     // The wall beyond a doorway.
     wide.depth = 0.0;
     EXPECT_FALSE(judge_piece(wide).is_furniture);

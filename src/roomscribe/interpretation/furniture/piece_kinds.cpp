@@ -253,6 +253,16 @@ PieceVerdict judge_table(const PieceForm& form) {
     return furniture("table", "top at a table's height, open below", 0.8);
 }
 
+/// A front without a wall behind it that ends lower than leaves and walls do, as fridges' and
+/// cupboards' do; where noise is strong, the ends of walls do as well.
+bool is_low_front(const PieceForm& form) {
+    constexpr double max_blur = 0.06;
+    constexpr double max_top = 1.9;
+    constexpr double max_bottom = 0.2;
+    return form.blur <= max_blur && form.top <= max_top && form.bottom <= max_bottom &&
+           form.rectangle.length >= 0.5 && form.face >= 0.6 * form.surface;
+}
+
 PieceVerdict judge_tall(const PieceForm& form) {
     const PlanRectangle& size = form.rectangle;
     if (form.planar < min_planar || form.face < 0.2) return {};
@@ -263,7 +273,7 @@ PieceVerdict judge_tall(const PieceForm& form) {
     // behind as the piece is deep.
     constexpr double min_width = 0.24;
     const bool is_thin = size.width - form.blur < min_width;
-    if (is_thin && !Range{0.25, 0.85}.holds(form.depth)) return {};
+    if (is_thin && !Range{0.25, 0.85}.holds(form.depth) && !is_low_front(form)) return {};
     // DIN 18101: leaves are 1.985 and 2.11 high, and to 1.0 wide.
     if (is_thin && size.length <= 1.05 && Range{1.93, 2.15}.holds(form.top)) return {};
     // Noise makes layers of walls, which look like boxes; wardrobes stand before a wall.
