@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -12,7 +14,11 @@
 #include "roomscribe/core/random.hpp"
 #include "roomscribe/core/units.hpp"
 #include "roomscribe/interpretation/furniture/level_slabs.hpp"
+#include "roomscribe/interpretation/furniture/piece_faces.hpp"
+#include "roomscribe/interpretation/furniture/piece_kinds.hpp"
 #include "roomscribe/interpretation/furniture/plan_rectangle.hpp"
+#include "roomscribe/interpretation/furniture/row_cuts.hpp"
+#include "roomscribe/interpretation/furniture/tall_pieces.hpp"
 #include "roomscribe/interpretation/point_labels.hpp"
 #include "roomscribe/interpretation/upright/upright.hpp"
 #include "roomscribe/preprocessing/scan_statistics.hpp"
@@ -258,6 +264,31 @@ TEST(FindFurniture, LeavesWhatStandsOnATableUnknown) {
     EXPECT_LT(best_iou(made, found, 2), 0.1);
 }
 
+TEST(FindFurniture, TellsAChestFromTheScreenOnIt) {
+    MadeUpRoom made;
+    made.box({2.0, 0.25, 0.0}, 0.0, {1.6, 0.4, 0.5}, 1);
+    made.box({2.0, 0.25, 0.0}, 0.0, {1.3, 0.05, 0.8}, 2, 0.55);
+    const Found found = find(made.cloud);
+    const auto pieces = pieces_of(found);
+    ASSERT_EQ(pieces.size(), 1U);
+    EXPECT_EQ(pieces[0]->kind, "tv_unit");
+    EXPECT_GT(best_iou(made, found, 1), 0.7);
+}
+
+TEST(FindFurniture, PartsDesksThatTouchAtCornersOfOneAnother) {
+    // Two that face each other, a third across their end, a fourth that goes on from it.
+    MadeUpRoom made;
+    made.table({1.7, 1.35, 0.0}, radians(90.0), 1.6, 0.7, 0.74, 1);
+    made.table({2.4, 1.35, 0.0}, radians(90.0), 1.6, 0.7, 0.74, 2);
+    made.table({2.75, 2.55, 0.0}, 0.0, 1.4, 0.8, 0.74, 3);
+    made.table({3.8, 2.25, 0.0}, radians(90.0), 1.4, 0.7, 0.74, 4);
+    made.chair({1.3, 1.4, 0.0}, radians(90.0), 5);
+    made.chair({2.8, 1.2, 0.0}, radians(-90.0), 6);
+    const Found found = find(made.cloud);
+    for (const int thing : {1, 2, 3, 4})
+        EXPECT_GT(best_iou(made, found, thing), 0.6) << thing;
+}
+
 TEST(FindFurniture, CallsAThinThingBeforeAWallARadiator) {
     MadeUpRoom made;
     made.box({2.5, 0.09, 0.0}, 0.0, {1.2, 0.1, 0.5}, 1, 0.12);
@@ -353,6 +384,223 @@ TEST(DetectFurnitureSurfaces, DropsClustersOfFewerThanFiveHundred) {
 
 TEST(DetectFurnitureSurfaces, FindsNothingInNothing) {
     EXPECT_TRUE(detect_furniture_surfaces({}, Eigen::Matrix3d::Identity(), 1).surfaces.empty());
+}
+
+TEST(SmallestRectangle, LiesAlongTheTwoSidesThatWereSeen) {
+    for (const double degrees : {10.0, 25.0, 40.0, 65.0, 80.0}) {
+        const Eigen::Vector2d u(std::cos(radians(degrees)), std::sin(radians(degrees)));
+        const Eigen::Vector2d v(-u.y(), u.x());
+        std::vector<Eigen::Vector2d> places;
+        for (int i = 0; i <= 20; ++i) {
+            places.emplace_back(0.04 * i * u);
+            places.emplace_back(0.03 * i * v);
+        }
+        const PlanRectangle rectangle = smallest_rectangle(places);
+        EXPECT_NEAR(rectangle.length, 0.8, 1e-6) << degrees;
+        EXPECT_NEAR(rectangle.width, 0.6, 1e-6) << degrees;
+        EXPECT_NEAR(std::abs(rectangle.axis.dot(u)), 1.0, 1e-6) << degrees;
+    }
+}
+
+/// Voxels of 4 cm that fill boxes, and which of them are neighbours.
+class MadeUpVoxels {
+  public:
+    static constexpr double edge = 0.04;
+
+    void fill(const Vector3d& low, const Vector3d& high, bool is_level = false) {
+        for (double x = low.x(); x <= high.x() + 1e-9; x += edge) {
+            for (double y = low.y(); y <= high.y() + 1e-9; y += edge) {
+                for (double z = low.z(); z <= high.z() + 1e-9; z += edge) {
+                    FurnitureVoxel voxel;
+                    voxel.place = {x, y, z};
+                    voxel.height = z;
+                    voxel.is_level = is_level;
+                    voxel.is_upright = !is_level;
+                    voxel.is_core = true;
+                    all_.voxels.push_back(voxel);
+                }
+            }
+        }
+    }
+
+    FurnitureVoxels finish() {
+        all_.reach = 2.0 * edge;
+        all_.first.assign(1, 0);
+        for (std::uint32_t i = 0; i < all_.voxels.size(); ++i) {
+            for (std::uint32_t j = 0; j < all_.voxels.size(); ++j) {
+                const double distance = (all_.voxels[i].place - all_.voxels[j].place).norm();
+                if (i != j && distance <= all_.reach + 1e-9) all_.neighbors.push_back(j);
+            }
+            all_.first.push_back(all_.neighbors.size());
+        }
+        return all_;
+    }
+
+  private:
+    FurnitureVoxels all_;
+};
+
+TEST(CutRow, KeepsARowWholeThatThingsStandOn) {
+    MadeUpVoxels made;
+    made.fill({0.0, 0.6, 0.1}, {1.8, 0.6, 0.9});   // its front
+    made.fill({0.0, 0.1, 0.9}, {1.8, 0.56, 0.9});  // its top
+    made.fill({0.3, 0.2, 0.94}, {0.9, 0.3, 1.2});
+    const FurnitureVoxels all = made.finish();
+    std::vector<std::uint32_t> members(all.voxels.size());
+    std::iota(members.begin(), members.end(), 0U);
+    EXPECT_EQ(cut_row(all, members).size(), 1U);
+    EXPECT_NEAR(front_top(all, members), 0.9, MadeUpVoxels::edge);
+}
+
+TEST(CutRow, CutsWhereTheFrontEndsLower) {
+    MadeUpVoxels made;
+    made.fill({0.0, 0.6, 0.1}, {0.9, 0.6, 0.9});
+    made.fill({0.94, 0.6, 0.1}, {1.8, 0.6, 0.7});
+    const FurnitureVoxels all = made.finish();
+    std::vector<std::uint32_t> members(all.voxels.size());
+    std::iota(members.begin(), members.end(), 0U);
+    EXPECT_EQ(cut_row(all, members).size(), 2U);
+}
+
+TEST(DraftHangingPieces, FindsWhatHangsOverThingsOnAWorktop) {
+    MadeUpVoxels made;
+    made.fill({0.0, 0.36, 1.4}, {1.6, 0.36, 2.0});  // the front of a wall unit
+    const std::size_t num_hanging = 41 * 16;
+    made.fill({0.4, 0.36, 0.9}, {0.52, 0.36, 1.36});  // a bottle that touches it
+    FurnitureVoxels all = made.finish();
+    const std::vector<PieceDraft> drafts = draft_hanging_pieces(all);
+    ASSERT_EQ(drafts.size(), 1U);
+    EXPECT_NEAR(static_cast<double>(drafts[0].voxels.size()), num_hanging, 20.0);
+}
+
+TEST(DraftHangingPieces, FindsWhatHangsOverThingsThatDoNotTouchIt) {
+    MadeUpVoxels made;
+    made.fill({0.0, 0.36, 1.44}, {1.6, 0.36, 2.0});
+    made.fill({0.0, 0.36, 0.9}, {1.2, 0.36, 1.2});
+    FurnitureVoxels all = made.finish();
+    EXPECT_EQ(draft_hanging_pieces(all).size(), 1U);
+}
+
+TEST(DraftHangingPieces, LeavesWhatStands) {
+    MadeUpVoxels made;
+    made.fill({0.0, 0.36, 0.9}, {1.6, 0.36, 2.0});
+    FurnitureVoxels all = made.finish();
+    EXPECT_TRUE(draft_hanging_pieces(all).empty());
+}
+
+TEST(FindLevelSlabs, PartsSeatsThatNoiseTiesTogether) {
+    MadeUpVoxels made;
+    made.fill({0.0, 0.0, 0.45}, {0.44, 0.44, 0.45}, true);
+    made.fill({0.56, 0.0, 0.45}, {1.0, 0.44, 0.45}, true);
+    made.fill({0.48, 0.2, 0.45}, {0.52, 0.24, 0.45}, true);
+    EXPECT_EQ(find_level_slabs(made.finish(), MadeUpVoxels::edge).size(), 2U);
+    MadeUpVoxels bench;
+    bench.fill({0.0, 0.0, 0.45}, {1.0, 0.44, 0.45}, true);
+    EXPECT_EQ(find_level_slabs(bench.finish(), MadeUpVoxels::edge).size(), 1U);
+}
+
+/// Panels of a front of 1.2 x 0.8 m, down the middle of which a line lies deeper.
+std::size_t num_panels_of_front(double noise, double gap_depth) {
+    Random random{5};
+    PointCloud cloud;
+    for (double x = 0.0; x <= 1.2; x += 0.005) {
+        for (double z = 0.0; z <= 0.8; z += 0.005) {
+            const bool is_gap = std::abs(x - 0.6) < 0.003;
+            const double y = is_gap ? -gap_depth : noise * random.normal();
+            cloud.positions.emplace_back(static_cast<float>(x), static_cast<float>(y),
+                                         static_cast<float>(z));
+        }
+    }
+    SurfaceSample sample;
+    sample.cloud.positions.emplace_back(0.0F, 0.0F, 0.0F);
+    sample.voxel_of_point.assign(cloud.size(), 0U);
+    FrontSide side;
+    side.plane = {Vector3d::UnitY(), 0.0};
+    side.along = -Vector3d::UnitX();
+    side.voxels = {0U};
+    return find_front_panels(cloud, sample, std::span(&side, 1), Vector3d::UnitZ()).size();
+}
+
+TEST(FindFrontPanels, PartsAFrontOnlyWhereNoiseLetsGapsShow) {
+    EXPECT_EQ(num_panels_of_front(0.002, 0.015), 2U);
+    // What lies so deep in so much noise is a wave of it.
+    EXPECT_EQ(num_panels_of_front(0.010, 0.035), 1U);
+}
+
+/// What stands in the middle of a room, flat and upright.
+PieceForm upright_form(double length, double width, double bottom, double top) {
+    PieceForm form;
+    form.rectangle.length = length;
+    form.rectangle.width = width;
+    form.bottom = bottom;
+    form.top = top;
+    form.front_top = top;
+    form.upright = 0.9;
+    form.planar = 0.95;
+    form.surface = length * (top - bottom);
+    form.face = 0.8 * form.surface;
+    form.num_voxels = 300;
+    return form;
+}
+
+TEST(JudgePiece, TakesAFrontForACabinetOnlyAtItsDepthBeforeAWall) {
+    PieceForm front = upright_form(0.6, 0.06, 0.07, 1.0);
+    EXPECT_LT(judge_piece(front).confidence, 0.5);
+    front.depth = 0.5;
+    EXPECT_EQ(judge_piece(front).kind, "drawer_unit");
+    EXPECT_GE(judge_piece(front).confidence, 0.5);
+    // A radiator with its sill is lower.
+    EXPECT_LT(judge_piece(upright_form(1.2, 0.4, 0.1, 0.62)).confidence, 0.5);
+}
+
+TEST(JudgePiece, TellsALeafFromAFront) {
+    PieceForm sheet = upright_form(0.9, 0.06, 0.07, 2.0);
+    EXPECT_FALSE(judge_piece(sheet).is_furniture);
+    sheet.depth = 0.6;
+    EXPECT_FALSE(judge_piece(sheet).is_furniture);
+    PieceForm wide = upright_form(1.8, 0.06, 0.07, 2.0);
+    wide.depth = 0.6;
+    EXPECT_TRUE(judge_piece(wide).is_furniture);
+    // A cupboard's front, whose wall was not found; a leaf is higher.
+    EXPECT_TRUE(judge_piece(upright_form(0.9, 0.06, 0.07, 1.8)).is_furniture);
+    // The wall beyond a doorway.
+    wide.depth = 0.0;
+    EXPECT_FALSE(judge_piece(wide).is_furniture);
+}
+
+TEST(JudgePiece, TakesNoiseFromTheThicknessOfASheet) {
+    PieceForm sheet = upright_form(1.8, 0.3, 0.07, 2.0);
+    sheet.depth = 2.0;
+    EXPECT_TRUE(judge_piece(sheet).is_furniture);
+    sheet.blur = 0.12;
+    EXPECT_FALSE(judge_piece(sheet).is_furniture);
+}
+
+TEST(JudgePiece, TakesWhatIsLikeAChairForOneInTheOpenOnly) {
+    PieceForm form = upright_form(0.6, 0.5, 0.06, 1.0);
+    form.planar = 0.6;
+    form.face = 0.2;
+    EXPECT_EQ(judge_piece(form).kind, "chair");
+    EXPECT_GE(judge_piece(form).confidence, 0.5);
+    form.depth = 0.55;  // a plant
+    EXPECT_LT(judge_piece(form).confidence, 0.5);
+}
+
+TEST(JudgePiece, AsksOfSeatsAndTopsTheirSizes) {
+    PieceForm stool = upright_form(0.36, 0.34, 0.06, 0.46);
+    stool.num_slabs = 1;
+    stool.seat = 0.45;
+    stool.highest_slab = 0.45;
+    EXPECT_EQ(judge_piece(stool).kind, "stool");
+    stool.rectangle.length = 0.6;  // a bag
+    EXPECT_FALSE(judge_piece(stool).is_furniture);
+    PieceForm desk = upright_form(1.5, 0.7, 0.06, 0.75);
+    desk.num_slabs = 1;
+    desk.seat = 0.74;
+    desk.highest_slab = 0.74;
+    EXPECT_EQ(judge_piece(desk).kind, "desk");
+    desk.rectangle.width = 0.4;  // the back of a sofa
+    EXPECT_LT(judge_piece(desk).confidence, 0.5);
 }
 
 TEST(SmallestRectangle, FollowsATurnedRectangle) {

@@ -30,6 +30,8 @@ constexpr double max_table_length = 2.1;
 constexpr double min_table_height = 0.66;
 /// m: a chair's seat is at most as wide as an office chair's.
 constexpr double max_seat_width = 0.62;
+/// m above the floor: of seats with their cushions.
+constexpr double max_seat_height = 0.56;
 /// m: the shadow of a monitor or a box on a top.
 constexpr double max_shadow = 0.6;
 /// Share of the rectangle around two pieces of a top that they have to fill.
@@ -201,7 +203,104 @@ struct Cut {
     double area = 0.0;  ///< m2, of both rectangles together
 };
 
-Cut find_cut(std::span<const Eigen::Vector2d> places, const PlanRectangle& rectangle, double step) {
+/// m: a piece of a row is not narrower than a kitchen's narrowest unit.
+constexpr double min_part = 0.3;
+
+/// m2 that a cut has to save: rims are not straight.
+constexpr double cut_toll = 0.1;
+
+/// Squares of the plan that a slab covers, along its rectangle.
+class CoveredSquares {
+  public:
+    CoveredSquares(std::span<const Eigen::Vector2d> places, const PlanRectangle& rectangle,
+                   double edge)
+        : edge_(edge) {
+        const Eigen::Vector2d half(0.5 * rectangle.length, 0.5 * rectangle.width);
+        const auto squares = [&](double extent) { return static_cast<int>(extent / edge) + 1; };
+        size_ = {squares(rectangle.length), squares(rectangle.width)};
+        is_covered_.assign(static_cast<std::size_t>(size_[0]) * static_cast<std::size_t>(size_[1]),
+                           false);
+        for (const Eigen::Vector2d& place : places) {
+            const Eigen::Vector2d from = place - rectangle.center;
+            const Eigen::Vector2d at =
+                (Eigen::Vector2d(from.dot(rectangle.axis), from.dot(rectangle.across())) + half) /
+                edge;
+            is_covered_[index(std::clamp(static_cast<int>(at.x()), 0, size_[0] - 1),
+                              std::clamp(static_cast<int>(at.y()), 0, size_[1] - 1))] = true;
+        }
+    }
+
+    /// Squares from `low` to before `high`, along and across.
+    struct Window {
+        std::array<int, 2> low{};
+        std::array<int, 2> high{};
+    };
+
+    Window whole() const { return {{0, 0}, size_}; }
+
+    /// What of a window is covered, tightly.
+    Window bounds(const Window& window) const {
+        Window tight{window.high, window.low};
+        for (int y = window.low[1]; y < window.high[1]; ++y) {
+            for (int x = window.low[0]; x < window.high[0]; ++x) {
+                if (!is_covered_[index(x, y)]) continue;
+                tight.low = {std::min(tight.low[0], x), std::min(tight.low[1], y)};
+                tight.high = {std::max(tight.high[0], x + 1), std::max(tight.high[1], y + 1)};
+            }
+        }
+        return tight;
+    }
+
+    double extent(const Window& window, std::size_t direction) const {
+        return edge_ * std::max(0, window.high[direction] - window.low[direction]);
+    }
+    double area(const Window& window) const { return extent(window, 0) * extent(window, 1); }
+
+  private:
+    std::size_t index(int x, int y) const {
+        return static_cast<std::size_t>(y) * static_cast<std::size_t>(size_[0]) +
+               static_cast<std::size_t>(x);
+    }
+
+    double edge_;
+    std::array<int, 2> size_{};
+    std::vector<bool> is_covered_;
+};
+
+/// The least area of rectangles that hold a window, cut up to `depth` times in a row from side to
+/// side, and where its first cut lies. What fits a table is cut no further.
+struct Partition {
+    double area = 0.0;
+    std::size_t direction = 0;
+    int at = 0;
+};
+
+Partition best_partition(const CoveredSquares& squares, const CoveredSquares::Window& window,
+                         double edge, int depth) {
+    const CoveredSquares::Window tight = squares.bounds(window);
+    Partition best{squares.area(tight), 0, 0};
+    const std::array<double, 2> extents{squares.extent(tight, 0), squares.extent(tight, 1)};
+    const bool fits = std::min(extents[0], extents[1]) <= max_table_width &&
+                      std::max(extents[0], extents[1]) <= max_table_length;
+    if (fits || depth == 0) return best;
+    const int margin = static_cast<int>(std::ceil(min_part / edge));
+    for (const std::size_t direction : {std::size_t{0}, std::size_t{1}}) {
+        for (int at = tight.low[direction] + margin; at + margin <= tight.high[direction]; ++at) {
+            CoveredSquares::Window low = tight;
+            CoveredSquares::Window high = tight;
+            low.high[direction] = at;
+            high.low[direction] = at;
+            const double area = best_partition(squares, low, edge, depth - 1).area +
+                                best_partition(squares, high, edge, depth - 1).area + cut_toll;
+            if (area < best.area) best = {area, direction, at};
+        }
+    }
+    return best;
+}
+
+/// The best single cut, in rectangles that lie as they like.
+Cut find_single_cut(std::span<const Eigen::Vector2d> places, const PlanRectangle& rectangle,
+                    double step) {
     Cut best;
     best.area = rectangle.area();
     std::vector<Eigen::Vector2d> low;
@@ -209,9 +308,7 @@ Cut find_cut(std::span<const Eigen::Vector2d> places, const PlanRectangle& recta
     for (const Eigen::Vector2d& direction : {Eigen::Vector2d(rectangle.axis), rectangle.across()}) {
         const double extent = direction == rectangle.axis ? rectangle.length : rectangle.width;
         const double middle = rectangle.center.dot(direction);
-        // A piece of a row is not narrower than a kitchen's narrowest unit.
-        constexpr double least = 0.3;
-        for (double at = middle - extent / 2.0 + least; at <= middle + extent / 2.0 - least;
+        for (double at = middle - extent / 2.0 + min_part; at <= middle + extent / 2.0 - min_part;
              at += step) {
             low.clear();
             high.clear();
@@ -222,6 +319,18 @@ Cut find_cut(std::span<const Eigen::Vector2d> places, const PlanRectangle& recta
         }
     }
     return best;
+}
+
+/// A single cut, or the first of several where these hold the slab in less.
+Cut find_cut(std::span<const Eigen::Vector2d> places, const PlanRectangle& rectangle, double edge) {
+    constexpr int max_depth = 2;
+    Cut single = find_single_cut(places, rectangle, edge);
+    const CoveredSquares squares(places, rectangle, edge);
+    const Partition best = best_partition(squares, squares.whole(), edge, max_depth);
+    if (single.area + cut_toll <= best.area) return single;
+    const Eigen::Vector2d direction = best.direction == 0 ? rectangle.axis : rectangle.across();
+    const double extent = best.direction == 0 ? rectangle.length : rectangle.width;
+    return {direction, rectangle.center.dot(direction) - extent / 2.0 + edge * best.at, best.area};
 }
 
 /// Voxels below a top, at a line across it, of what stands there from the floor to the top: legs
@@ -325,9 +434,48 @@ std::optional<Cut> halve(const FurnitureVoxels& all, const LevelSlab& slab) {
     return supports == 0 && may_be_one ? std::nullopt : best;
 }
 
+/// Seats of two chairs side by side that noise ties together: of a chair's size both, with nearly
+/// nothing between, where cushions of a sofa touch along their depth.
+std::optional<Cut> cut_seats(const FurnitureVoxels& all, std::span<const Eigen::Vector2d> places,
+                             const LevelSlab& slab, double voxel_size) {
+    constexpr double min_seat = 0.3;
+    constexpr double max_filled = 0.25;  // share of the seats' depth
+    const PlanRectangle& rectangle = slab.rectangle;
+    if (slab.height > max_seat_height || rectangle.width > max_seat_width ||
+        rectangle.length < 2.0 * min_seat || rectangle.length > 2.0 * max_seat_width) {
+        return std::nullopt;
+    }
+    const double bin = 1.5 * std::max(voxel_size, 0.5 * all.reach);
+    std::vector<std::pair<std::int32_t, std::int32_t>> cells;  // along, across
+    for (const Eigen::Vector2d& place : places) {
+        const Eigen::Vector2d from = place - rectangle.center;
+        cells.emplace_back(
+            static_cast<std::int32_t>((from.dot(rectangle.axis) + 0.5 * rectangle.length) / bin),
+            static_cast<std::int32_t>(std::floor(from.dot(rectangle.across()) / voxel_size)));
+    }
+    std::sort(cells.begin(), cells.end());
+    cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
+    std::vector<double> depths(static_cast<std::size_t>(rectangle.length / bin) + 1, 0.0);
+    for (const auto& [along, across] : cells)
+        depths[static_cast<std::size_t>(along)] += 1.0;
+    std::vector<double> sorted = depths;
+    const double usual = median(sorted);
+    const auto margin = static_cast<std::size_t>(min_seat / bin);
+    std::optional<Cut> best;
+    double least = max_filled * usual;
+    for (std::size_t i = margin; i + margin < depths.size(); ++i) {
+        if (depths[i] > least) continue;
+        least = depths[i];
+        const double start = rectangle.center.dot(rectangle.axis) - 0.5 * rectangle.length;
+        best = Cut{rectangle.axis, start + bin * (static_cast<double>(i) + 0.5), 0.0};
+    }
+    return best;
+}
+
 std::optional<Cut> choose_cut(const FurnitureVoxels& all, std::span<const Eigen::Vector2d> places,
                               const LevelSlab& slab, double voxel_size) {
     const PlanRectangle& rectangle = slab.rectangle;
+    if (std::optional<Cut> cut = cut_seats(all, places, slab, voxel_size)) return cut;
     if (rectangle.width <= max_table_width + 0.1) return cut_desks(all, slab);
     // What fills less than this of its rectangle is an L or several at angles.
     constexpr double min_fill = 0.8;

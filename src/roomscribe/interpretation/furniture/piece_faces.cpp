@@ -42,10 +42,21 @@ struct GapLine {
     double score = 0.0;
 };
 
+/// Deviations of the face's noise that a point in a gap lies deeper at least.
+constexpr double min_deviations = 2.5;
+
+/// Whether points in gaps can be told from the face's noise: a gap is as deep as doors are thick.
+bool shows_gaps(double noise) {
+    constexpr double door_thickness = 0.019;  // m: chipboard of doors and drawers is 16 to 19 mm
+    return min_deviations * noise <= door_thickness;
+}
+
 class PanelParter {
   public:
     PanelParter(std::span<const SidePoint> points, double noise, std::vector<WallRectangle>& panels)
-        : points_(points), gap_depth_(std::max(min_gap_depth, 2.5 * noise)), panels_(panels) {}
+        : points_(points),
+          gap_depth_(std::max(min_gap_depth, min_deviations * noise)),
+          panels_(panels) {}
 
     void part(const WallRectangle& panel) {
         std::optional<GapLine> best;
@@ -268,7 +279,11 @@ std::vector<FrontPanel> find_front_panels(const PointCloud& map, const SurfaceSa
         const WallRectangle whole = extent_of(points[s], std::max(0.006, 3.0 * noise));
         if (whole.area() < min_front_area) continue;
         std::vector<WallRectangle> parts;
-        PanelParter(points[s], noise, parts).part(whole);
+        if (shows_gaps(noise)) {
+            PanelParter(points[s], noise, parts).part(whole);
+        } else {
+            parts.push_back(whole);
+        }
         for (const WallRectangle& part : parts) {
             FrontPanel panel;
             panel.side = s;

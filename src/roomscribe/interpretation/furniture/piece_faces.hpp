@@ -58,7 +58,8 @@ std::optional<FrontSide> find_front_side(const FurnitureVoxels& all, const Piece
 /// The panels of each front side. Its extent is that of the map's points that lie on it. Where
 /// points lie a few millimetres to centimetres deeper along a straight line from edge to edge, it
 /// is parted there: rays enter the gaps of 3 to 5 mm between fronts. One line after another, the
-/// clearest first. `up` is a unit vector in the map frame.
+/// clearest first; none where noise reaches as deep as doors are thick. `up` is a unit vector in
+/// the map frame.
 std::vector<FrontPanel> find_front_panels(const PointCloud& map, const SurfaceSample& sample,
                                           std::span<const FrontSide> sides,
                                           const Eigen::Vector3d& up);

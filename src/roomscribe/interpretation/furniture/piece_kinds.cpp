@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "roomscribe/core/quantile.hpp"
+#include "roomscribe/interpretation/furniture/row_cuts.hpp"
 
 namespace roomscribe {
 namespace {
@@ -19,6 +20,8 @@ constexpr double max_hidden_depth = 0.7;
 /// m before the wall: radiators are 5 to 12 cm thick and 3 to 6 off the wall, curtains hang as
 /// near.
 constexpr double max_thin_depth = 0.22;
+/// m above the floor: of chairs and stools with their cushions.
+constexpr double max_seat = 0.56;
 /// m above the floor: what stands shows something lower, unless other things hide it.
 constexpr double max_standing_bottom = 0.5;
 /// m above the floor: wall units begin at 1.35, shelves over a sofa or desk lower.
@@ -145,24 +148,13 @@ PieceVerdict judge_hanging(const PieceForm& form) {
     return {};
 }
 
-PieceVerdict judge_seat(const PieceForm& form) {
-    const double across = form.rectangle.length;
-    // Cushions and legs are less flat than boards, leaves less than either; a seat is 0.14 m2.
-    constexpr double min_flat = 0.4;
-    constexpr double min_seat_area = 0.14;
-    if (across > 1.1 || (form.planar < min_flat && form.face < min_seat_area)) return {};
-    if (form.top >= 0.65) {
-        if (form.rectangle.width >= 0.7 && form.upright + form.level > 0.6)
-            return furniture("armchair", "seat with arms and a back", 0.7);
-        if (across > 0.6) return furniture("office_chair", "seat with a back, on a foot", 0.8);
-        return furniture("chair", "seat with a back", 0.85);
-    }
-    if (form.rectangle.width < 0.24) return {};
-    // Cartons and bins stand anywhere, small chests at a wall.
-    if (form.closed > 0.7 && !form.is_at_wall) return {};
-    if (form.closed > 0.7 && form.rectangle.width >= 0.3)
-        return furniture("nightstand", "low box of a nightstand's size", 0.7);
-    return furniture("stool", "seat without a back", 0.75);
+/// Chests beside beds are nearly square and 0.45 to 0.65 high.
+bool is_nightstand(const PieceForm& form) {
+    constexpr double min_width = 0.3;
+    constexpr double max_elongation = 1.45;
+    constexpr double min_height = 0.45;
+    return form.rectangle.width >= min_width && form.seat >= min_height &&
+           form.rectangle.length <= max_elongation * form.rectangle.width;
 }
 
 PieceVerdict judge_low(const PieceForm& form) {
@@ -180,16 +172,54 @@ PieceVerdict judge_low(const PieceForm& form) {
     }
     if (form.closed > 0.7) {
         if (size.length > 0.9) return furniture("tv_unit", "low closed box", 0.7);
+        // Cartons, bags and heaters along walls are longer than deep, or lower.
+        if (!is_nightstand(form)) return {};
         return furniture("nightstand", "low box of a nightstand's size", 0.65);
     }
+    constexpr double min_bench_width = 0.28;
+    if (size.width < min_bench_width) return {};
     if (size.width < 0.5 && size.length > 0.8) return furniture("bench", "long seat", 0.7);
     return furniture("coffee_table", "low table top", 0.7);
+}
+
+PieceVerdict judge_seat(const PieceForm& form) {
+    const double across = form.rectangle.length;
+    // Cushions and legs are less flat than boards, leaves less than either; a seat is 0.14 m2.
+    constexpr double min_flat = 0.4;
+    constexpr double min_seat_area = 0.14;
+    if (across > 1.1 || (form.planar < min_flat && form.face < min_seat_area)) return {};
+    // Wider than a chair, and closed or narrow: a low chest, or its front.
+    constexpr double max_chair_width = 0.75;
+    constexpr double min_chair_depth = 0.35;
+    if (across > max_chair_width && (form.closed > 0.7 || form.rectangle.width < min_chair_depth))
+        return judge_low(form);
+    if (form.seat > max_seat && form.closed > 0.7)
+        return furniture("drawer_unit", "low box of a drawer unit's size", 0.7);
+    if (form.seat > max_seat)
+        return furniture("chair", "level surface above a chair's seat", 0.3, "thing");
+    if (form.top >= 0.65) {
+        if (form.rectangle.width >= 0.7 && form.upright + form.level > 0.6)
+            return furniture("armchair", "seat with arms and a back", 0.7);
+        if (across > 0.6) return furniture("office_chair", "seat with a back, on a foot", 0.8);
+        return furniture("chair", "seat with a back", 0.85);
+    }
+    // Stools are as deep as wide, 0.3 and more; cartons and bags are not.
+    constexpr double min_stool = 0.28;
+    constexpr double max_elongation = 1.45;
+    const bool is_square = form.rectangle.length <= max_elongation * form.rectangle.width;
+    // Cartons and bins stand anywhere, small chests at a wall.
+    if (form.closed > 0.7 && !form.is_at_wall) return {};
+    if (form.closed > 0.7 && is_nightstand(form))
+        return furniture("nightstand", "low box of a nightstand's size", 0.7);
+    if (!is_square && form.rectangle.width >= 0.4) return judge_low(form);
+    if (form.rectangle.width < min_stool || !is_square) return {};
+    return furniture("stool", "seat without a back", 0.75);
 }
 
 PieceVerdict judge_table(const PieceForm& form) {
     const PlanRectangle& size = form.rectangle;
     // Window sills.
-    if (form.is_at_wall && form.depth < 0.3 && size.width < 0.28) return {};
+    if (form.is_at_wall && form.depth < 0.35 && size.width < 0.3) return {};
     if (form.closed > 0.7 && size.width <= 0.8) {
         if (size.length > 1.8 && size.width >= 0.5 && Range{0.82, 0.98}.holds(form.seat))
             return furniture("base_unit", "row of boxes under a worktop", 0.85);
@@ -211,26 +241,49 @@ PieceVerdict judge_table(const PieceForm& form) {
         return furniture("counter", "top at a counter's height", is_long ? 0.7 : 0.3,
                          is_long ? "" : "thing");
     }
+    // Desks are 0.6 deep at least; what is less is a part, or the back of a sofa.
+    constexpr double min_table_width = 0.5;
+    constexpr double partly_closed = 0.4;
+    if (size.width < min_table_width && form.is_at_wall && form.closed >= partly_closed)
+        return furniture("cabinet", "top of a cabinet's depth at a wall", 0.65);
+    if (size.width < min_table_width)
+        return furniture("table", "part of a top at a table's height", 0.3, "thing");
     if (size.width <= 0.85 && size.length >= 1.0)
         return furniture("desk", "top at a desk's height, open below", 0.85);
     return furniture("table", "top at a table's height, open below", 0.8);
+}
+
+/// A front without a wall behind it that ends lower than leaves and walls do, as fridges' and
+/// cupboards' do; where noise is strong, the ends of walls do as well.
+bool is_low_front(const PieceForm& form) {
+    constexpr double max_blur = 0.06;
+    constexpr double max_top = 1.9;
+    constexpr double max_bottom = 0.2;
+    return form.blur <= max_blur && form.top <= max_top && form.bottom <= max_bottom &&
+           form.rectangle.length >= 0.5 && form.face >= 0.6 * form.surface;
 }
 
 PieceVerdict judge_tall(const PieceForm& form) {
     const PlanRectangle& size = form.rectangle;
     if (form.planar < min_planar || form.face < 0.2) return {};
     // Of a box a front, a side and a top are seen; between boards there are many faces.
-    const bool may_be_open = form.level >= 0.08 && size.length >= 0.6 && form.depth <= 0.5;
+    const bool may_be_open = form.level >= 0.08 && size.length >= 0.6 && form.depth <= 0.6;
     if (form.face < 0.25 * form.surface && !may_be_open) return {};
-    // A leaf that stands open is thin, and 1.95 to 2.1 m high and to 1.0 m wide; of a wardrobe's
-    // front the wall is as far behind as it is deep, if it was seen.
-    const bool is_front_only = !form.reaches_ceiling && form.face >= 0.6 * form.surface &&
-                               (size.length >= 1.15 || form.top < 1.92);
-    if (size.width < 0.24 && !Range{0.25, 0.75}.holds(form.depth) && !is_front_only) return {};
+    // A leaf that stands open and a wall beyond a doorway are thin; of a front the wall is as far
+    // behind as the piece is deep.
+    constexpr double min_width = 0.24;
+    const bool is_thin = size.width - form.blur < min_width;
+    if (is_thin && !Range{0.25, 0.85}.holds(form.depth) && !is_low_front(form)) return {};
+    // DIN 18101: leaves are 1.985 and 2.11 high, and to 1.0 wide.
+    if (is_thin && size.length <= 1.05 && Range{1.93, 2.15}.holds(form.top)) return {};
+    // Noise makes layers of walls, which look like boxes; wardrobes stand before a wall.
+    constexpr double strong_blur = 0.08;
+    constexpr double max_free = 1.1;
+    if (form.depth == 0.0 && form.blur > strong_blur && size.length > max_free) return {};
     // Columns and pipes.
     if (form.reaches_ceiling && size.length < 0.6) return {};
     if (size.length < 0.38) return {};
-    if (size.width <= 0.45 && (form.num_slabs >= 2 || form.level > 0.15))
+    if (size.width <= 0.5 && (form.num_slabs >= 2 || form.level > 0.15))
         return furniture("shelf", "boards above each other", 0.8);
     if (Range{0.5, 0.75}.holds(size.length) && size.width >= 0.45)
         return furniture("fridge", "tall box of a fridge's size", 0.7);
@@ -254,17 +307,38 @@ bool is_chair_back(const PieceForm& form) {
            form.planar >= mostly_planar && (form.depth == 0.0 || form.depth > wall_distance);
 }
 
-/// A box of which two sides are seen, before a wall, and higher than radiators are (0.7).
+/// A box of which two sides are seen, or its front alone, before a wall, and higher than radiators
+/// are (0.7) and a desk's side panels (0.75).
 bool is_box_at_wall(const PieceForm& form) {
-    return form.is_at_wall && form.bottom <= 0.2 && form.top >= 0.7 &&
-           Range{0.35, 0.75}.holds(form.depth) && form.rectangle.width >= 0.35 &&
-           form.upright >= 0.75 && form.planar >= 0.9;
+    constexpr double min_front = 0.6;    // share of what is seen
+    constexpr double min_length = 0.42;  // m: drawer units are 0.42 wide and more
+    constexpr double max_depth = 0.8;
+    const bool is_smooth = form.planar >= 0.88;
+    const bool is_face = form.face >= min_front * form.surface && form.upright >= 0.75;
+    const bool has_two_sides = form.top >= 0.7 && form.rectangle.width >= 0.35 &&
+                               form.bottom <= 0.35 && (is_smooth || is_face);
+    const bool has_front =
+        form.top >= 0.78 && form.rectangle.length >= min_length && form.bottom <= 0.2 && is_face;
+    return (has_two_sides || has_front) && Range{0.35, max_depth}.holds(form.depth) &&
+           form.rectangle.width <= max_depth && form.upright >= 0.62;
+}
+
+/// What stands in the open and is as large as a chair, with more than upright surface. Plants and
+/// radiators stand at walls, drawer units are lower or show their tops.
+bool is_chair_in_open(const PieceForm& form) {
+    constexpr double min_clearance = 0.78;  // m: of its front from a wall
+    constexpr double max_back = 0.45;       // m2, more than the back of any office chair
+    return (form.depth == 0.0 || form.depth >= min_clearance) && Range{0.8, 1.2}.holds(form.top) &&
+           form.bottom <= max_standing_bottom && Range{0.44, 0.75}.holds(form.rectangle.length) &&
+           form.rectangle.width >= 0.22 && form.planar >= 0.4 && form.upright <= 0.93 &&
+           form.face >= 0.08 && form.face <= max_back;
 }
 
 /// The fronts of a kitchen's row whose worktop was not seen.
 bool is_row_front(const PieceForm& form) {
-    return form.bottom <= 0.25 && Range{0.75, 1.0}.holds(form.top) &&
-           Range{1.2, 5.0}.holds(form.rectangle.length) && Range{0.5, 0.75}.holds(form.depth) &&
+    const double depth = form.depth > 0.0 ? form.depth : form.rectangle.width;
+    return form.bottom <= 0.25 && Range{0.75, 1.0}.holds(form.front_top) &&
+           Range{1.2, 5.0}.holds(form.rectangle.length) && Range{0.5, 0.8}.holds(depth) &&
            form.upright >= 0.75 && form.planar >= 0.9;
 }
 
@@ -278,12 +352,13 @@ PieceVerdict judge_plain(const PieceForm& form) {
     if (form.top < 0.4 || size.length < 0.25) return {};
     if (is_chair_back(form)) return furniture("chair", "back of a chair, its seat hidden", 0.65);
     if (form.bottom > max_standing_bottom) return {};
+    if (is_row_front(form)) return furniture("base_unit", "fronts of a row before a wall", 0.65);
     if (is_box_at_wall(form)) {
         return size.length <= 0.65
                    ? furniture("drawer_unit", "sides of a box of a drawer unit's size", 0.65)
                    : furniture("cabinet", "sides of a box before a wall", 0.65);
     }
-    if (is_row_front(form)) return furniture("base_unit", "fronts of a row before a wall", 0.65);
+    if (is_chair_in_open(form)) return furniture("chair", "size of a chair, in the open", 0.65);
     const double surface = form.surface;
     if (size.length > 2.5 && size.width > 1.2) return {};
     if (form.planar >= min_planar && form.upright >= 0.5 && size.length >= 0.35 &&
@@ -295,6 +370,16 @@ PieceVerdict judge_plain(const PieceForm& form) {
         form.planar > 0.4 && form.face >= 0.15 * surface)
         return furniture("chair", "size of a chair", 0.3, "thing");
     return {};
+}
+
+/// A tall box before a wall whose lower part no ray reached, as scanners see it that look only so
+/// far down: what hangs begins higher, what stands on something has that below.
+bool is_box_seen_above(const PieceForm& form) {
+    constexpr double min_seen = 0.5;    // m of its height
+    constexpr double min_width = 0.15;  // m: a screen is thinner
+    return form.bottom < min_hanging_bottom && form.top - form.bottom >= min_seen &&
+           form.rectangle.width - form.blur >= min_width && Range{0.25, 0.75}.holds(form.depth) &&
+           form.planar >= 0.9 && form.upright >= 0.85;
 }
 
 }  // namespace
@@ -328,7 +413,12 @@ PieceForm measure_form(const FurnitureVoxels& all, std::span<const LevelSlab> sl
     form.rectangle = smallest_rectangle(places);
     form.bottom = quantile(heights, 0.01);
     form.top = quantile(heights, 0.99);
+    form.front_top = front_top(all, draft.voxels);
     const FurnitureVoxel& some = all.voxels[draft.voxels.front()];
+    std::vector<double> noise;
+    for (const std::uint32_t i : draft.voxels)
+        noise.push_back(all.voxels[i].noise);
+    form.blur = 4.0 * median(noise);  // two deviations on either side
     form.planar = share(num_planar);
     std::sort(of_patches.begin(), of_patches.end());
     std::size_t largest = 0;
@@ -352,6 +442,8 @@ PieceForm measure_form(const FurnitureVoxels& all, std::span<const LevelSlab> sl
     if (!draft.slabs.empty()) {
         const LevelSlab& main = slabs[draft.slabs.front()];
         form.seat = main.height;
+        for (const std::size_t slab : draft.slabs)
+            form.highest_slab = std::max(form.highest_slab, slabs[slab].height);
         form.closed = closed_share(all, draft, main.rectangle, main.height - 0.1);
     }
     return form;
@@ -364,8 +456,10 @@ PieceVerdict judge_piece(const PieceForm& form) {
     if (form.bottom >= min_hanging_bottom) return judge_hanging(form);
     if (form.num_slabs == 0 && form.top < 1.25) return judge_plain(form);
     if (form.num_slabs == 0)
-        return form.bottom > max_standing_bottom ? PieceVerdict{} : judge_tall(form);
-    if (form.top >= 1.3) return judge_tall(form);
+        return form.bottom <= max_standing_bottom || is_box_seen_above(form) ? judge_tall(form)
+                                                                             : PieceVerdict{};
+    // A screen on a low chest makes nothing tall of it.
+    if (form.top >= 1.3 && form.highest_slab > 0.66) return judge_tall(form);
     if (form.seat <= 0.66) {
         const bool is_seat = form.seat >= 0.36 && form.rectangle.length <= 1.1;
         return is_seat ? judge_seat(form) : judge_low(form);

@@ -27,7 +27,8 @@ struct PlanRectangle {
 };
 
 /// The smallest rectangle around the places; of those nearly as small (a tenth more area) the one
-/// along x and y, for most pieces stand along the walls.
+/// along x and y, for most pieces stand along the walls, unless the places lie much nearer to the
+/// edges of another, as those of two sides of a box do.
 PlanRectangle smallest_rectangle(std::span<const Eigen::Vector2d> places);
 
 }  // namespace roomscribe

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <utility>
@@ -22,6 +23,8 @@ constexpr double min_piece = 0.28;
 constexpr double min_top_step = 0.08;
 /// m: an overhang or a handle is not a step of the front.
 constexpr double min_front_step = 0.08;
+/// m: what rises higher behind that stands on the row.
+constexpr double front_thickness = 0.1;
 /// m: a row of less is one piece.
 constexpr double min_row = 0.7;
 
@@ -36,23 +39,41 @@ Profile measure_profile(const FurnitureVoxels& all, std::span<const std::uint32_
     Profile profile;
     profile.start = rectangle.center.dot(rectangle.axis) - rectangle.length / 2.0;
     const auto num_bins = static_cast<std::size_t>(rectangle.length / bin_width) + 1;
-    std::vector<std::array<std::vector<double>, 2>> values(num_bins);
+    std::vector<std::vector<std::pair<double, double>>> values(num_bins);  // height, depth
     for (const std::uint32_t i : members) {
         const FurnitureVoxel& voxel = all.voxels[i];
         const double along = voxel.place.head<2>().dot(rectangle.axis) - profile.start;
         const auto bin = static_cast<std::size_t>(
             std::clamp(along / bin_width, 0.0, static_cast<double>(num_bins - 1)));
-        values[bin][0].push_back(voxel.height);
-        values[bin][1].push_back(voxel.place.head<2>().dot(to_front));
+        values[bin].emplace_back(voxel.height, voxel.place.head<2>().dot(to_front));
     }
     constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
-    for (auto& [heights, depths] : values) {
+    for (std::vector<std::pair<double, double>>& places : values) {
         // Not the outermost voxels, which may be strays.
-        const bool is_seen = heights.size() >= 3;
-        profile.lines[0].push_back(is_seen ? quantile(heights, 0.95) : nothing);
-        profile.lines[1].push_back(is_seen ? quantile(depths, 0.95) : nothing);
+        const bool is_seen = places.size() >= 3;
+        std::vector<double> depths;
+        depths.reserve(places.size());
+        for (const auto& [height, depth] : places)
+            depths.push_back(depth);
+        const double front = is_seen ? quantile(depths, 0.95) : nothing;
+        std::vector<double> heights;
+        for (const auto& [height, depth] : places) {
+            if (depth >= front - front_thickness) heights.push_back(height);
+        }
+        profile.lines[0].push_back(heights.size() >= 3 ? quantile(heights, 0.95) : nothing);
+        profile.lines[1].push_back(front);
     }
     return profile;
+}
+
+/// The front is where most upright surface is: behind it little was seen.
+Eigen::Vector2d direction_to_front(std::span<const Eigen::Vector2d> places,
+                                   const PlanRectangle& rectangle) {
+    const Eigen::Vector2d across = rectangle.across();
+    std::size_t in_front = 0;
+    for (const Eigen::Vector2d& place : places)
+        in_front += (place - rectangle.center).dot(across) > 0.0 ? 1U : 0U;
+    return 2 * in_front >= places.size() ? across : Eigen::Vector2d(-across);
 }
 
 /// How much the medians on both sides of a bin's lower edge differ.
@@ -94,6 +115,17 @@ bool is_bridged_by_boards(const FurnitureVoxels& all, std::span<const std::uint3
 
 }  // namespace
 
+double front_top(const FurnitureVoxels& all, std::span<const std::uint32_t> members) {
+    const std::vector<Eigen::Vector2d> places = places_of(all, members);
+    const PlanRectangle rectangle = smallest_rectangle(places);
+    const Profile profile =
+        measure_profile(all, members, rectangle, direction_to_front(places, rectangle));
+    std::vector<double> tops;
+    std::copy_if(profile.lines[0].begin(), profile.lines[0].end(), std::back_inserter(tops),
+                 [](double top) { return std::isfinite(top); });
+    return tops.empty() ? 0.0 : median(tops);
+}
+
 std::vector<std::vector<std::uint32_t>> cut_row(const FurnitureVoxels& all,
                                                 std::span<const std::uint32_t> members) {
     const std::vector<Eigen::Vector2d> places = places_of(all, members);
@@ -101,14 +133,8 @@ std::vector<std::vector<std::uint32_t>> cut_row(const FurnitureVoxels& all,
     std::vector<std::vector<std::uint32_t>> parts;
     parts.emplace_back(members.begin(), members.end());
     if (rectangle.length < min_row) return parts;
-    // The front is where most upright surface is: behind it little was seen.
-    const Eigen::Vector2d across = rectangle.across();
-    std::size_t in_front = 0;
-    for (const Eigen::Vector2d& place : places)
-        in_front += (place - rectangle.center).dot(across) > 0.0 ? 1U : 0U;
-    const bool is_front = 2 * in_front >= places.size();
     const Profile profile =
-        measure_profile(all, members, rectangle, is_front ? across : Eigen::Vector2d(-across));
+        measure_profile(all, members, rectangle, direction_to_front(places, rectangle));
     const std::size_t num_bins = profile.lines[0].size();
     const auto window = static_cast<std::size_t>(std::lround(min_piece / bin_width));
     double greatest = 1.0;

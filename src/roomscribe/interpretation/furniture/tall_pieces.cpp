@@ -27,8 +27,14 @@ constexpr double filled_to = 1.2;
 constexpr double level_height = 0.1;
 constexpr std::size_t num_levels = 9;
 constexpr std::size_t min_filled_levels = 6;
+/// m: of what stands on a worktop or a desk a column shows only what is higher.
+constexpr double max_lowest = 0.7;
 /// Fewer voxels are no side of a tall piece: 1.2 m x 8 cm in 4 cm.
 constexpr std::size_t min_voxels = 60;
+/// m: what stands shows a decimeter or two of itself below.
+constexpr double below_hanging = 0.15;
+/// Share of what hangs under which things stand that touch it, on a worktop or a table.
+constexpr double max_standing = 0.25;
 /// m: handles and overhangs.
 constexpr double beside = 0.06;
 
@@ -37,6 +43,31 @@ struct Column {
     std::array<std::int32_t, 4> key{};  ///< storey, room, x, y
     std::uint32_t voxel = 0;
 };
+
+/// m: between a kitchen's worktop and its wall units lie 0.45 and more, between boards less.
+constexpr double max_board_gap = 0.44;
+
+/// Whether something higher than `from` follows on a gap wider than one between boards. Heights
+/// ascending.
+bool has_gap(std::span<const double> heights, double from) {
+    double last = from;
+    for (const double height : heights) {
+        if (height - last > max_board_gap) return true;
+        last = std::max(last, height);
+    }
+    return false;
+}
+
+/// Whether a column ends at a worktop's height and goes on where wall units begin.
+bool parts_at_worktop(std::span<const double> heights) {
+    constexpr double lowest = 0.7;
+    constexpr double highest = 1.3;
+    for (std::size_t i = 1; i < heights.size(); ++i) {
+        const double below = heights[i - 1];
+        if (below >= lowest && below <= highest && heights[i] - below > max_board_gap) return true;
+    }
+    return false;
+}
 
 std::vector<std::uint32_t> find_tall_voxels(const FurnitureVoxels& all) {
     std::vector<Column> columns;
@@ -54,22 +85,58 @@ std::vector<std::uint32_t> find_tall_voxels(const FurnitureVoxels& all) {
         return std::tie(a.key, a.voxel) < std::tie(b.key, b.voxel);
     });
     std::vector<std::uint32_t> tall;
+    std::vector<double> heights;
     for (std::size_t begin = 0, end = 0; begin < columns.size(); begin = end) {
         std::bitset<num_levels> filled;
         double top = 0.0;
+        heights.clear();
         for (; end < columns.size() && columns[end].key == columns[begin].key; ++end) {
-            const double height = all.voxels[columns[end].voxel].height;
-            top = std::max(top, height);
+            const FurnitureVoxel& voxel = all.voxels[columns[end].voxel];
+            const double height = voxel.height;
+            top = std::max(top, height - voxel.noise);
+            heights.push_back(height);
             if (height < filled_from || height >= filled_to) continue;
             filled.set(std::min(static_cast<std::size_t>((height - filled_from) / level_height),
                                 num_levels - 1));
         }
+        std::sort(heights.begin(), heights.end());
         if (top < min_tall || filled.count() < min_filled_levels) continue;
+        if (heights.front() > max_lowest || parts_at_worktop(heights)) continue;
         for (std::size_t k = begin; k < end; ++k)
             tall.push_back(columns[k].voxel);
     }
     std::sort(tall.begin(), tall.end());
     return tall;
+}
+
+/// For each voxel whether its column goes on without a gap from where hanging things begin into the
+/// decimeters below.
+std::vector<bool> find_columns_below(const FurnitureVoxels& all) {
+    constexpr double max_gap = 0.12;  // m: a voxel or two
+    std::vector<std::array<std::int32_t, 4>> below;
+    std::vector<std::array<std::int32_t, 4>> right_above;
+    const auto key = [&](const FurnitureVoxel& voxel) {
+        return std::array<std::int32_t, 4>{
+            static_cast<std::int32_t>(voxel.storey), voxel.room,
+            static_cast<std::int32_t>(std::floor(voxel.place.x() / all.reach)),
+            static_cast<std::int32_t>(std::floor(voxel.place.y() / all.reach))};
+    };
+    for (const FurnitureVoxel& voxel : all.voxels) {
+        if (!voxel.is_core) continue;
+        if (voxel.height >= filled_to - below_hanging && voxel.height < min_tall)
+            below.push_back(key(voxel));
+        if (voxel.height >= min_tall && voxel.height < min_tall + max_gap)
+            right_above.push_back(key(voxel));
+    }
+    std::sort(below.begin(), below.end());
+    std::sort(right_above.begin(), right_above.end());
+    std::vector<bool> found(all.voxels.size(), false);
+    for (std::size_t i = 0; i < found.size(); ++i) {
+        const auto column = key(all.voxels[i]);
+        found[i] = std::binary_search(below.begin(), below.end(), column) &&
+                   std::binary_search(right_above.begin(), right_above.end(), column);
+    }
+    return found;
 }
 
 bool are_together(const FurnitureVoxel& a, const FurnitureVoxel& b) {
@@ -96,7 +163,6 @@ TallBox make_box(const FurnitureVoxels& all, std::vector<std::uint32_t> members)
 /// worktop and wall units is wider (0.45 m and more) than that between boards.
 bool is_bridged(const FurnitureVoxels& all, const TallBox& a, const TallBox& b,
                 const PlanRectangle& both) {
-    constexpr double max_board_gap = 0.44;
     std::vector<double> heights;
     for (const FurnitureVoxel& voxel : all.voxels) {
         if (!voxel.is_core || !are_together(voxel, all.voxels[a.voxels.front()])) continue;
@@ -109,12 +175,8 @@ bool is_bridged(const FurnitureVoxels& all, const TallBox& a, const TallBox& b,
     }
     if (heights.size() < min_voxels) return false;
     std::sort(heights.begin(), heights.end());
-    double last = 0.1;
-    for (const double height : heights) {
-        if (height - last > max_board_gap) return false;
-        last = std::max(last, height);
-    }
-    return std::min(a.top, b.top) - last <= max_board_gap;
+    constexpr double plinth = 0.1;  // m
+    return !has_gap(heights, plinth) && std::min(a.top, b.top) - heights.back() <= max_board_gap;
 }
 
 /// Sides of one shelf, or a front whose middle something hides: in line, of one height, with
@@ -149,6 +211,29 @@ void join_boxes(const FurnitureVoxels& all, std::vector<TallBox>& boxes) {
             j = i + 1;
         }
     }
+}
+
+/// Whether it stands on the floor by what its columns show: screens on chests and tables do not,
+/// which begin where chests end, at 0.4 m and higher.
+bool stands_on_floor(const FurnitureVoxels& all, const TallBox& box) {
+    constexpr double low = 0.45;
+    constexpr double min_share = 0.3;  // of the columns; of others something hides the lower part
+    std::vector<std::pair<std::array<std::int32_t, 2>, bool>> columns;
+    for (const std::uint32_t i : box.voxels) {
+        const Eigen::Vector3d& place = all.voxels[i].place;
+        columns.push_back({{static_cast<std::int32_t>(std::floor(place.x() / all.reach)),
+                            static_cast<std::int32_t>(std::floor(place.y() / all.reach))},
+                           all.voxels[i].height >= low});
+    }
+    std::sort(columns.begin(), columns.end());
+    std::size_t count = 0;
+    std::size_t standing = 0;
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+        if (i > 0 && columns[i].first == columns[i - 1].first) continue;
+        ++count;
+        standing += columns[i].second ? 0U : 1U;  // the lowest first
+    }
+    return static_cast<double>(standing) >= min_share * static_cast<double>(count);
 }
 
 }  // namespace
@@ -193,6 +278,7 @@ std::vector<PieceDraft> draft_tall_pieces(FurnitureVoxels& all, const RoomSurfac
     join_boxes(all, boxes);
     std::vector<PieceDraft> drafts;
     for (const TallBox& box : boxes) {
+        if (!stands_on_floor(all, box)) continue;
         const FurnitureVoxel& some = all.voxels[box.voxels.front()];
         const PlanRectangle rectangle = extended_to_wall(box.rectangle, surfaces, some);
         PieceDraft draft;
@@ -213,15 +299,16 @@ std::vector<PieceDraft> draft_hanging_pieces(FurnitureVoxels& all) {
     std::vector<bool> is_high(all.voxels.size(), false);
     std::vector<std::uint32_t> high;
     for (std::uint32_t i = 0; i < all.voxels.size(); ++i) {
-        is_high[i] = all.voxels[i].is_core && all.voxels[i].height > filled_to;
+        is_high[i] = all.voxels[i].is_core && all.voxels[i].height >= min_tall;
         if (is_high[i]) high.push_back(i);
     }
+    std::vector<bool> goes_on_below = find_columns_below(all);
     std::vector<PieceDraft> drafts;
     for (std::vector<std::uint32_t>& members : connected_voxels(all, high, is_high)) {
-        double bottom = std::numeric_limits<double>::infinity();
-        for (const std::uint32_t i : members)
-            bottom = std::min(bottom, all.voxels[i].height);
-        if (bottom < min_tall) continue;
+        const auto standing = std::count_if(members.begin(), members.end(),
+                                            [&](std::uint32_t i) { return goes_on_below[i]; });
+        if (static_cast<double>(standing) > max_standing * static_cast<double>(members.size()))
+            continue;
         for (const std::uint32_t i : members)
             all.voxels[i].is_core = false;
         drafts.push_back({std::move(members), {}});

@@ -9,7 +9,8 @@
 namespace roomscribe {
 
 /// What stands taller than any table or chair, from near the floor up without a gap: wardrobes,
-/// shelves, fridges, but also columns and people. All that lies within the rectangle around such
+/// shelves, fridges, but also columns and people; not a screen on a chest, nor wall units over a
+/// worktop, which end or begin where those do. All that lies within the rectangle around such
 /// sides and fronts belongs to it; rows are cut (cut_row). The voxels are core voxels no longer.
 std::vector<PieceDraft> draft_tall_pieces(FurnitureVoxels& all, const RoomSurfaces& surfaces);
 
@@ -18,8 +19,8 @@ std::vector<PieceDraft> draft_tall_pieces(FurnitureVoxels& all, const RoomSurfac
 PlanRectangle extended_to_wall(PlanRectangle rectangle, const RoomSurfaces& surfaces,
                                const FurnitureVoxel& some);
 
-/// What hangs above a table's height and hangs together with nothing lower: wall units, shelves on
-/// walls, but also lamps. The voxels are core voxels no longer.
+/// What hangs above a table's height: wall units, shelves on walls, but also lamps. What stands
+/// below, on a worktop, may touch a part of it. The voxels are core voxels no longer.
 std::vector<PieceDraft> draft_hanging_pieces(FurnitureVoxels& all);
 
 }  // namespace roomscribe

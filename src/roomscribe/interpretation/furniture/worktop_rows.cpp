@@ -6,8 +6,8 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "roomscribe/core/quantile.hpp"
 #include "roomscribe/interpretation/furniture/plan_rectangle.hpp"
+#include "roomscribe/interpretation/furniture/row_cuts.hpp"
 #include "roomscribe/interpretation/furniture/tall_pieces.hpp"
 
 namespace roomscribe {
@@ -36,10 +36,8 @@ RowPart measure(const FurnitureVoxels& all, std::span<const LevelSlab> slabs,
                 const std::vector<PieceDraft>& drafts, std::size_t number) {
     const PieceDraft& draft = drafts[number];
     RowPart part{number, smallest_rectangle(places_of(all, draft.voxels)), 0.0};
-    std::vector<double> heights;
-    for (const std::uint32_t i : draft.voxels)
-        heights.push_back(all.voxels[i].height);
-    part.height = draft.slabs.empty() ? quantile(heights, 0.97) : slabs[draft.slabs.front()].height;
+    part.height =
+        draft.slabs.empty() ? front_top(all, draft.voxels) : slabs[draft.slabs.front()].height;
     return part;
 }
 
