@@ -67,6 +67,7 @@ void read_cloud(std::string_view extension, Bytes bytes) {
     const fs::path path = scratch_file("input." + std::string(extension), bytes);
     try {
         read_scans(path, one_thread());
+        summarize_file(path, one_thread());
     } catch (const IoError&) {
     }
 }

@@ -74,8 +74,16 @@ std::span<const std::byte> ByteReader::take(std::size_t size) {
                      "the file is cut off: copy it again");
     }
     const std::span<const std::byte> taken = bytes_.subspan(position_, size);
-    position_ += size;
+    pass(size);
     return taken;
+}
+
+void ByteReader::pass(std::size_t size) {
+    if (position_ - held_ >= bytes_let_go_at_once) {
+        let_go(bytes_.subspan(held_, position_ - held_));
+        held_ = position_;
+    }
+    position_ += size;
 }
 
 std::string_view ByteReader::read_line() {
@@ -88,7 +96,7 @@ std::string_view ByteReader::read_line() {
                      "this is no file of that format, or a damaged one");
     }
     std::string_view line = text.substr(0, end);
-    position_ += std::min(line.size() + 1, text.size());
+    pass(std::min(line.size() + 1, text.size()));
     if (line.ends_with('\r')) line.remove_suffix(1);
     return line;
 }

@@ -32,6 +32,10 @@ class MappedFile {
     std::size_t size_ = 0;
 };
 
+/// Who walks through a MappedFile lets go of what lies behind in pieces of so many bytes: each time
+/// has its price.
+inline constexpr std::size_t bytes_let_go_at_once = 1U << 24U;
+
 /// Gives the memory back that bytes of a MappedFile take once they were touched: a file may be
 /// larger than memory. They may be touched again, and are then read again.
 void let_go(std::span<const std::byte> mapped);
@@ -50,7 +54,8 @@ Value swap_bytes(Value value) {
     return value;
 }
 
-/// Walks a file from front to back and never past its end. Everything that is asked for and not
+/// Walks a file from front to back and never past its end, and lets go of what lies far behind.
+/// Everything that is asked for and not
 /// there throws IoError with path, format and place.
 class ByteReader {
   public:
@@ -83,7 +88,7 @@ class ByteReader {
     /// All that is left, as text; leaves the position alone.
     std::string_view remaining_text() const;
     /// Goes on behind `size` bytes of what is left. Precondition: size <= remaining().
-    void skip(std::size_t size) { position_ += size; }
+    void skip(std::size_t size) { pass(size); }
 
     /// Throws IoError that names the present byte, the line that was read last, or the line in
     /// which the byte at `position` stands.
@@ -101,6 +106,7 @@ class ByteReader {
                                 std::string_view what) const;
 
   private:
+    void pass(std::size_t size);
     /// Why that is refused; empty if nothing is wrong.
     std::string unbacked(std::uint64_t count, std::uint64_t min_bytes, std::string_view what) const;
 
@@ -108,6 +114,7 @@ class ByteReader {
     std::string path_;
     std::string format_;
     std::size_t position_ = 0;
+    std::size_t held_ = 0;       ///< what lies before was let go
     std::size_t last_line_ = 0;  ///< where the line begins that was read last
 };
 

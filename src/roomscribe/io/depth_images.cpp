@@ -55,7 +55,7 @@ Camera read_camera(const fs::path& path) {
     return {numbers[0], numbers[1], numbers[2], numbers[3], numbers[4]};
 }
 
-FileContents place_pixels(const fs::path& path, const Camera& camera) {
+FileContents place_pixels(const fs::path& path, const Camera& camera, PointsAs as) {
     const DepthPixels image = read_depth_png(path);
     FileContents contents{
         {}, "depth image", "PNG, 16 bits", {{"depth", ScalarType::uint16, 1}}, {}};
@@ -72,6 +72,7 @@ FileContents place_pixels(const fs::path& path, const Camera& camera) {
     }
     cloud.grid = ScanGrid{image.rows, image.columns};
     cloud.sensor_pose = Transform::Identity();
+    keep_points(as, contents);
     return contents;
 }
 
@@ -135,7 +136,7 @@ class Trajectory {
 
 }  // namespace
 
-FileContents read_depth_image(const fs::path& path, const Context& context) {
+FileContents read_depth_image(const fs::path& path, PointsAs as, const Context& context) {
     context.throw_if_cancelled();
     fs::path own = path;
     own.replace_extension(".intrinsics.txt");
@@ -146,10 +147,11 @@ FileContents read_depth_image(const fs::path& path, const Context& context) {
         throw IoError(path.string(), "depth image", {}, "the camera's numbers are not known",
                       std::string(camera_cure));
     }
-    return place_pixels(path, read_camera(fs::exists(own) ? own : common));
+    return place_pixels(path, read_camera(fs::exists(own) ? own : common), as);
 }
 
-std::vector<FileContents> read_tum_folder(const fs::path& folder, const Context& context) {
+std::vector<FileContents> read_tum_folder(const fs::path& folder, PointsAs as,
+                                          const Context& context) {
     const std::vector<TimedFile> list = read_list(folder / tum_index);
     const fs::path intrinsics = folder / "intrinsics.txt";
     const bool camera_known = fs::exists(intrinsics);
@@ -163,7 +165,7 @@ std::vector<FileContents> read_tum_folder(const fs::path& folder, const Context&
     for (std::size_t i = 0; i < num_images; ++i) {
         context.throw_if_cancelled();
         const TimedFile& entry = list[i * list.size() / num_images];
-        FileContents image = place_pixels(folder / entry.name, camera);
+        FileContents image = place_pixels(folder / entry.name, camera, as);
         image.name = fs::path(entry.name).stem().string();
         if (trajectory) image.map_from_scan = trajectory->at(entry.time);
         if (!camera_known) {

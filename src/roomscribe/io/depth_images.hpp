@@ -14,7 +14,8 @@ namespace roomscribe {
 /// intrinsics.txt: "fx fy cx cy" in pixels, and how many steps make a metre (default 1000, as depth
 /// cameras write). The frame is the camera's (x right, y down, z ahead); the cloud has the image's
 /// grid and its sensor pose is the origin. Without the numbers it throws IoError.
-FileContents read_depth_image(const std::filesystem::path& path, const Context& context);
+FileContents read_depth_image(const std::filesystem::path& path, PointsAs as,
+                              const Context& context);
 
 /// A folder as the TUM RGB-D benchmark has them: depth.txt names the images, "time file" a line;
 /// groundtruth.txt, if there is one, says where the camera was, "time x y z qx qy qz qw". An image
@@ -22,7 +23,7 @@ FileContents read_depth_image(const std::filesystem::path& path, const Context& 
 /// benchmark's own default (525 525 319.5 239.5, 5000 steps a metre) with a warning. Of more than
 /// 100 images 100 are taken, evenly, with a warning.
 /// Source: Sturm et al., "A benchmark for the evaluation of RGB-D SLAM systems", IROS 2012.
-std::vector<FileContents> read_tum_folder(const std::filesystem::path& folder,
+std::vector<FileContents> read_tum_folder(const std::filesystem::path& folder, PointsAs as,
                                           const Context& context);
 
 /// What the list of images in such a folder is called.

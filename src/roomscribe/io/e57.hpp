@@ -18,7 +18,8 @@ namespace roomscribe {
 /// any case, as is everything else. A scan with a pose is in the scanner's frame; without one, in
 /// the file's, and nothing is known of its scanner. Images are not read.
 /// Source: ASTM E2807-11; libE57Format's description of the packets.
-std::vector<FileContents> read_e57(const std::filesystem::path& path, const Context& context);
+std::vector<FileContents> read_e57(const std::filesystem::path& path, PointsAs as,
+                                   const Context& context);
 
 /// Writes scans with their poses. Numbers keep their types and bits: float32 as single, integers
 /// packed into the bits of their type (those of 64 bits are read back as float64). Points without

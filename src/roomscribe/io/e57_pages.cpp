@@ -130,6 +130,11 @@ void E57Pages::read(std::uint64_t logical, std::span<std::byte> target) const {
     }
 }
 
+void E57Pages::let_go(std::uint64_t first, std::uint64_t last) const {
+    const std::uint64_t begin = e57_physical(first);
+    roomscribe::let_go(file_.bytes().subspan(begin, e57_physical(last) - begin));
+}
+
 void E57Pages::fail(std::uint64_t logical, std::string_view reason) const {
     throw IoError(file_.path(), "E57", {.byte = e57_physical(logical), .line = {}}, reason, cure);
 }

@@ -44,6 +44,8 @@ class E57Pages {
         read(logical, std::as_writable_bytes(std::span(&value, 1)));
         return std::endian::native == std::endian::little ? value : swap_bytes(value);
     }
+    /// Gives the memory back that what stands from `first` to `last` takes.
+    void let_go(std::uint64_t first, std::uint64_t last) const;
     [[noreturn]] void fail(std::uint64_t logical, std::string_view reason) const;
 
   private:

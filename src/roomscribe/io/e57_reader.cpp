@@ -422,19 +422,24 @@ void convert_values(std::span<const Column> columns, std::vector<std::vector<dou
     }
 }
 
-PointCloud decode_points(const Source& source, const pugi::xml_node& scan, Records& records,
-                         const Context& context) {
+void decode_points(const Source& source, const pugi::xml_node& scan, Records& records, PointsAs as,
+                   FileContents& contents, const Context& context) {
     std::vector<Field> fields;
     for (const Column& column : records.columns)
         fields.push_back(column.field);
-    PointDecoder decoder(fields, static_cast<std::size_t>(records.count));
+    PointDecoder decoder(fields, static_cast<std::size_t>(records.count), as);
     GridFinder grid(source, scan, records);
     std::vector<std::vector<double>> values(fields.size());
     const std::size_t points_per_chunk = 1 + values_per_chunk / fields.size();
     std::vector<std::byte> packet;
     std::size_t done = 0;
+    std::uint64_t held = records.position;
     while (done < records.count) {
         context.throw_if_cancelled();
+        if (records.position - held >= bytes_let_go_at_once) {
+            source.pages.let_go(held, records.position);
+            held = records.position;
+        }
         const bool more = read_packet(source, records, packet);
         const std::size_t left = static_cast<std::size_t>(records.count) - done;
         std::size_t count = left;
@@ -460,13 +465,13 @@ PointCloud decode_points(const Source& source, const pugi::xml_node& scan, Recor
         }
         done += count;
     }
-    return decoder.finish(std::nullopt, grid.grid());
+    decoder.finish(contents, std::nullopt, grid.grid());
 }
 
 /// `unclaimed`: bytes of the file that no scan before took for its points. Without it, many scans
 /// could name the same bytes.
 FileContents read_one(const Source& source, const pugi::xml_node& scan, std::uint64_t& unclaimed,
-                      const Context& context) {
+                      PointsAs as, const Context& context) {
     FileContents contents;
     contents.format = "E57";
     contents.name = scan.child("name").text().get();
@@ -479,7 +484,7 @@ FileContents read_one(const Source& source, const pugi::xml_node& scan, std::uin
     for (const E57Stream& stream : records.streams)
         contents.fields.push_back({stream.element().name, type_of(stream.element()), 1});
     contents.encoding = fmt::format("{} properties", records.streams.size());
-    contents.cloud = decode_points(source, scan, records, context);
+    decode_points(source, scan, records, as, contents, context);
     return contents;
 }
 
@@ -498,7 +503,8 @@ std::string read_xml(const MappedFile& file, const E57Pages& pages) {
 
 }  // namespace
 
-std::vector<FileContents> read_e57(const std::filesystem::path& path, const Context& context) {
+std::vector<FileContents> read_e57(const std::filesystem::path& path, PointsAs as,
+                                   const Context& context) {
     const MappedFile file(path, "E57");
     if (!file.text().starts_with(magic) || file.bytes().size() < header_bytes) {
         throw IoError(file.path(), "E57", {.byte = 0, .line = {}},
@@ -518,7 +524,7 @@ std::vector<FileContents> read_e57(const std::filesystem::path& path, const Cont
     std::uint64_t unclaimed = pages.size();
     for (const pugi::xml_node scan : document.child("e57Root").child("data3D").children()) {
         if (scan.type() != pugi::node_element) continue;
-        scans.push_back(read_one(source, scan, unclaimed, context));
+        scans.push_back(read_one(source, scan, unclaimed, as, context));
     }
     if (scans.empty()) source.fail("there is no scan in it");
     return scans;

@@ -15,7 +15,7 @@ namespace roomscribe {
 /// infrared and extra bytes are channels, but for those that are zero everywhere (the class
 /// always is one); return counts and waveforms are dropped.
 /// LAZ, which is compressed, is refused with a word on how to open it.
-FileContents read_las(const std::filesystem::path& path, const Context& context);
+FileContents read_las(const std::filesystem::path& path, PointsAs as, const Context& context);
 
 /// Writes LAS 1.4, point format 7, or 6 without colours, in steps of 0.1 mm (coarser only for
 /// clouds more than 400 km wide) from the global shift. Channels with a place in the format go

@@ -255,7 +255,7 @@ void mask_legacy_classes(PointCloud& cloud) {
 
 }  // namespace
 
-FileContents read_las(const std::filesystem::path& path, const Context& context) {
+FileContents read_las(const std::filesystem::path& path, PointsAs as, const Context& context) {
     const MappedFile file(path, "LAS");
     ByteReader reader(file, "LAS");
     const Header header = read_header(reader);
@@ -271,19 +271,19 @@ FileContents read_las(const std::filesystem::path& path, const Context& context)
     const std::byte* const records = reader.take(num_points * header.record_bytes).data();
 
     const RecordBits used = find_used_bits(records, header.record_bytes, num_points, context);
-    PointDecoder decoder(fields_to_decode(fields, used), num_points);
+    PointDecoder decoder(fields_to_decode(fields, used), num_points, as);
     decoder.quantize_positions(header.scale, header.offset);
     decoder.decode_mapped({records, num_points * header.record_bytes}, std::endian::little,
                           context);
-    FileContents contents{decoder.finish(std::nullopt, std::nullopt),
-                          "LAS",
-                          fmt::format("1.{}, point format {}", header.minor, header.point_format),
-                          {},
-                          {}};
+    FileContents contents;
+    contents.format = "LAS";
+    contents.encoding = fmt::format("1.{}, point format {}", header.minor, header.point_format);
+    decoder.finish(contents, std::nullopt, std::nullopt);
     for (const Field& field : fields) {
         if (field.name != "_") contents.fields.push_back(field);
     }
-    if (const auto offset = color_offset(fields)) {
+    const auto offset = color_offset(fields);
+    if (offset && as == PointsAs::cloud) {
         decode_colors(contents.cloud, records + *offset, header.record_bytes,
                       std::span(used).subspan(*offset), context);
     }

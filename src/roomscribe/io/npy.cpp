@@ -126,7 +126,8 @@ std::vector<Value> read_npy(const std::filesystem::path& path) {
     return values;
 }
 
-FileContents read_npy_points(const std::filesystem::path& path, const Context& context) {
+FileContents read_npy_points(const std::filesystem::path& path, PointsAs as,
+                             const Context& context) {
     constexpr std::string_view points_cure =
         "save an array of N x 3 to 6 float32 or float64 with numpy.save";
     constexpr std::size_t rows_to_guess_by = 1000;
@@ -181,10 +182,19 @@ FileContents read_npy_points(const std::filesystem::path& path, const Context& c
     contents.warnings.push_back(
         fmt::format("columns, told by their numbers: {}", fmt::join(names, " ")));
     context.report_message(path.filename().string() + ": " + contents.warnings.front());
-    PointDecoder decoder(decoded, num_rows);
-    decoder.decode(sources, 0, num_rows, std::endian::little, context);
-    contents.cloud = decoder.finish(std::nullopt, std::nullopt);
-    for (std::size_t i = 0; i < num_rows && !colors.empty(); ++i) {
+    PointDecoder decoder(decoded, num_rows, as);
+    constexpr std::size_t rows_per_run = 1U << 19U;
+    for (std::size_t row = 0; row < num_rows; row += rows_per_run) {
+        const std::size_t count = std::min<std::size_t>(rows_per_run, num_rows - row);
+        std::vector<FieldSource> run = sources;
+        for (FieldSource& source : run)
+            source.first += row * source.stride;
+        decoder.decode(run, row, count, std::endian::little, context);
+        for (const FieldSource& source : run)
+            let_go({source.first, count * source.stride});
+    }
+    decoder.finish(contents, std::nullopt, std::nullopt);
+    for (std::size_t i = 0; i < contents.cloud.size() && !colors.empty(); ++i) {
         auto& color = contents.cloud.colors.emplace_back();
         for (std::size_t k = 0; k < 3; ++k)
             color[k] = color_byte(value_at(i, colors[k]) * color_factor);

@@ -25,6 +25,7 @@ void write_npy(const std::filesystem::path& path, std::span<const Value> values)
 /// Reads points: a two-dimensional array of float32 or float64, of either order, with 3 to 6
 /// columns, which are told by their numbers as those of text are (guessed_columns.hpp). Throws
 /// IoError as read_npy does.
-FileContents read_npy_points(const std::filesystem::path& path, const Context& context);
+FileContents read_npy_points(const std::filesystem::path& path, PointsAs as,
+                             const Context& context);
 
 }  // namespace roomscribe

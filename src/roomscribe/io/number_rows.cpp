@@ -138,6 +138,13 @@ std::span<const std::byte> bytes_of(std::string_view text) {
 
 }  // namespace
 
+std::size_t count_rows(std::span<const RowBlock> blocks) {
+    std::size_t count = 0;
+    for (const RowBlock& block : blocks)
+        count += block.num_rows;
+    return count;
+}
+
 std::vector<RowBlock> take_row_blocks(ByteReader& reader, std::size_t max_rows) {
     std::vector<RowBlock> blocks;
     const std::string_view text = reader.remaining_text();

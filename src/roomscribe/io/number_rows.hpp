@@ -25,6 +25,8 @@ struct RowBlock {
     std::size_t num_rows = 0;  ///< lines that are not blank
 };
 
+std::size_t count_rows(std::span<const RowBlock> blocks);
+
 /// Cuts the text that `reader` has left into blocks, up to `max_rows` rows, and moves the reader
 /// behind them.
 std::vector<RowBlock> take_row_blocks(ByteReader& reader, std::size_t max_rows);

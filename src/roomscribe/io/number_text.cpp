@@ -115,7 +115,7 @@ TextTable::TextTable(ByteReader& reader, std::span<const TextColumn> columns, bo
         if (!column.is_list) row_bytes_ += size_of(column.type);
     }
     const std::string_view text = reader.remaining_text();
-    begin_ = position_ = text.data();
+    begin_ = position_ = held_ = text.data();
     end_ = begin_ + text.size();
 }
 
@@ -131,6 +131,11 @@ void TextTable::skip_blank_lines() {
 }
 
 void TextTable::read_row(std::byte* values) {
+    const auto passed = static_cast<std::size_t>(position_ - held_);
+    if (passed >= bytes_let_go_at_once) {
+        let_go(std::as_bytes(std::span(held_, passed)));
+        held_ = position_;
+    }
     skip_blank_lines();
     for (const TextColumn& column : columns_) {
         if (column.is_list) {

@@ -62,6 +62,7 @@ class TextTable {
     std::size_t row_bytes_ = 0;
     const char* begin_;
     const char* position_;
+    const char* held_;  ///< what lies before was let go
     const char* end_;
 };
 

@@ -80,7 +80,7 @@ Vertex parse_vertex(const ByteReader& reader, std::string_view line) {
 
 }  // namespace
 
-FileContents read_obj(const std::filesystem::path& path, const Context& context) {
+FileContents read_obj(const std::filesystem::path& path, PointsAs as, const Context& context) {
     const MappedFile file(path, "OBJ");
     ByteReader reader(file, "OBJ");
     const VertexCount count = count_vertices(reader);
@@ -91,7 +91,7 @@ FileContents read_obj(const std::filesystem::path& path, const Context& context)
     std::vector<std::string> names{"x", "y", "z"};
     if (count.colored) names.insert(names.end(), {"red", "green", "blue"});
     contents.fields = row_fields(names);
-    PointDecoder decoder(contents.fields, count.vertices);
+    PointDecoder decoder(contents.fields, count.vertices, as);
     std::vector<Vertex> chunk;
     std::vector<std::array<std::uint8_t, 3>> colors;
     std::size_t first = 0;
@@ -119,7 +119,7 @@ FileContents read_obj(const std::filesystem::path& path, const Context& context)
         if (chunk.size() == vertices_per_chunk) flush();
     }
     if (!chunk.empty()) flush();
-    contents.cloud = decoder.finish(std::nullopt, std::nullopt);
+    decoder.finish(contents, std::nullopt, std::nullopt);
     return contents;
 }
 

@@ -13,7 +13,7 @@ namespace roomscribe {
 /// HEIGHT above 1 is a scan grid. VIEWPOINT (tx ty tz qw qx qy qz) is the sensor pose unless it is
 /// the default. In the compressed encoding each field stands on its own, all x before all y.
 /// Source: pcl::PCDReader / PCDWriter, "The PCD file format".
-FileContents read_pcd(const std::filesystem::path& path, const Context& context);
+FileContents read_pcd(const std::filesystem::path& path, PointsAs as, const Context& context);
 void write_pcd(const std::filesystem::path& path, const PointCloud& cloud, Encoding encoding,
                const Context& context);
 

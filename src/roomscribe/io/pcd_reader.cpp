@@ -189,28 +189,28 @@ std::optional<ScanGrid> header_grid(const ByteReader& reader, Header& header) {
 }
 
 PointDecoder decode_ascii(ByteReader& reader, std::span<const Field> fields,
-                          std::uint64_t num_points, const Context& context) {
+                          std::uint64_t num_points, PointsAs as, const Context& context) {
     std::uint64_t num_values = 0;
     for (const Field& field : fields)
         num_values += field.count;
     // A value takes a digit and a space or line end, which only the very last may lack.
     if (num_points > 0) reader.require_backed(num_points, 2 * num_values - 1, "points");
-    PointDecoder decoder(fields, num_points);
+    PointDecoder decoder(fields, num_points, as);
     decode_text(reader, fields, num_points, false, decoder, context);
     return decoder;
 }
 
 PointDecoder decode_binary(ByteReader& reader, std::span<const Field> fields,
-                           std::uint64_t num_points, const Context& context) {
+                           std::uint64_t num_points, PointsAs as, const Context& context) {
     reader.require_backed(num_points, record_bytes(fields), "points");
-    PointDecoder decoder(fields, num_points);
+    PointDecoder decoder(fields, num_points, as);
     decoder.decode_mapped(reader.take(num_points * record_bytes(fields)), std::endian::little,
                           context);
     return decoder;
 }
 
 PointDecoder decode_compressed(ByteReader& reader, std::span<const Field> fields,
-                               std::uint64_t num_points, const Context& context) {
+                               std::uint64_t num_points, PointsAs as, const Context& context) {
     const auto packed_size = reader.read<std::uint32_t>();
     const auto size = reader.read<std::uint32_t>();
     const auto packed = reader.take(packed_size);
@@ -241,18 +241,18 @@ PointDecoder decode_compressed(ByteReader& reader, std::span<const Field> fields
         sources.push_back({block.data() + offset, field.bytes()});
         if (with_padding || field.name != "_") offset += num_points * field.bytes();
     }
-    PointDecoder decoder(fields, num_points);
+    PointDecoder decoder(fields, num_points, as);
     decoder.decode(sources, 0, num_points, std::endian::little, context);
     return decoder;
 }
 
 PointDecoder decode_points(ByteReader& reader, std::string_view encoding,
-                           std::span<const Field> fields, std::uint64_t num_points,
+                           std::span<const Field> fields, std::uint64_t num_points, PointsAs as,
                            const Context& context) {
-    if (encoding == "ascii") return decode_ascii(reader, fields, num_points, context);
-    if (encoding == "binary") return decode_binary(reader, fields, num_points, context);
+    if (encoding == "ascii") return decode_ascii(reader, fields, num_points, as, context);
+    if (encoding == "binary") return decode_binary(reader, fields, num_points, as, context);
     if (encoding == "binary_compressed") {
-        return decode_compressed(reader, fields, num_points, context);
+        return decode_compressed(reader, fields, num_points, as, context);
     }
     reader.fail_at_line(fmt::format("DATA {} is no encoding", quote_text(encoding)),
                         "use ascii, binary or binary_compressed");
@@ -260,7 +260,7 @@ PointDecoder decode_points(ByteReader& reader, std::string_view encoding,
 
 }  // namespace
 
-FileContents read_pcd(const std::filesystem::path& path, const Context& context) {
+FileContents read_pcd(const std::filesystem::path& path, PointsAs as, const Context& context) {
     const MappedFile file(path, "PCD");
     ByteReader reader(file, "PCD");
     Header header;
@@ -268,9 +268,8 @@ FileContents read_pcd(const std::filesystem::path& path, const Context& context)
     }
     FileContents contents{{}, "PCD", header.encoding, header_fields(reader, header), {}};
     const std::optional<ScanGrid> grid = header_grid(reader, header);
-    contents.cloud =
-        decode_points(reader, header.encoding, contents.fields, *header.num_points, context)
-            .finish(header.viewpoint, grid);
+    decode_points(reader, header.encoding, contents.fields, *header.num_points, as, context)
+        .finish(contents, header.viewpoint, grid);
     return contents;
 }
 

@@ -16,7 +16,7 @@ namespace roomscribe {
 /// is the element `camera` of PCL (view_px ... z_axisz, the axes as the rows of the rotation),
 /// unless that is the identity, which PCL writes when it knows nothing.
 /// Source: G. Turk, "The PLY Polygon File Format" (1994); pcl::PLYReader / PLYWriter.
-FileContents read_ply(const std::filesystem::path& path, const Context& context);
+FileContents read_ply(const std::filesystem::path& path, PointsAs as, const Context& context);
 void write_ply(const std::filesystem::path& path, const PointCloud& cloud, Encoding encoding,
                const Context& context);
 

@@ -68,14 +68,12 @@ void read_element(Body& body, const PlyElement& element, const Context& context,
     body.reader.require_backed(element.count, element.min_row_bytes(body.ascii),
                                "rows of element " + quote_text(element.name));
     if (!body.ascii && !element.has_lists()) {
-        constexpr std::size_t bytes_per_run = 1U << 24U;
         const std::size_t rows =
-            std::max<std::size_t>(1, bytes_per_run / std::max<std::size_t>(1, record));
+            std::max<std::size_t>(1, bytes_let_go_at_once / std::max<std::size_t>(1, record));
         for (std::size_t first = 0; first < element.count; first += rows) {
             const std::size_t count = std::min<std::size_t>(rows, element.count - first);
             const auto records = body.reader.take(count * record);
             use(records.data(), body.order, first, count);
-            let_go(records);
         }
         return;
     }
@@ -154,7 +152,7 @@ void warn_of_lists(const PlyElement& vertex, std::vector<std::string>& warnings)
 
 }  // namespace
 
-FileContents read_ply(const std::filesystem::path& path, const Context& context) {
+FileContents read_ply(const std::filesystem::path& path, PointsAs as, const Context& context) {
     const MappedFile file(path, "PLY");
     ByteReader reader(file, "PLY");
     const PlyHeader header = read_ply_header(reader);
@@ -187,13 +185,13 @@ FileContents read_ply(const std::filesystem::path& path, const Context& context)
             [&](const std::byte* records, std::endian order, std::size_t first, std::size_t count) {
                 if (element != vertex) return;
                 // Only here is it known that the file backs its word.
-                if (!decoder) decoder.emplace(contents.fields, element->count);
+                if (!decoder) decoder.emplace(contents.fields, element->count, as);
                 decoder->decode(record_sources(contents.fields, records), first, count, order,
                                 context);
             });
     }
-    if (!decoder) decoder.emplace(contents.fields, 0);
-    contents.cloud = decoder->finish(sensor_pose, header_grid(header, vertex->count));
+    if (!decoder) decoder.emplace(contents.fields, 0, as);
+    decoder->finish(contents, sensor_pose, header_grid(header, vertex->count));
     return contents;
 }
 

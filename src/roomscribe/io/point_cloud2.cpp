@@ -14,7 +14,7 @@
 
 namespace roomscribe {
 
-FileContents read_point_cloud2(const RosMessage& message, const Context& context) {
+FileContents read_point_cloud2(const RosMessage& message, PointsAs as, const Context& context) {
     const auto number = [&](const std::string& path) {
         const double value = message.number(path).value_or(0.0);
         if (!(value >= 0.0 && value <= 4294967295.0)) throw Error(path + " is no number of bytes");
@@ -57,7 +57,7 @@ FileContents read_point_cloud2(const RosMessage& message, const Context& context
         throw Error("a PointCloud2 has fewer bytes than its points take");
     }
     const std::size_t num_points = width * height;
-    PointDecoder decoder(fields, num_points);
+    PointDecoder decoder(fields, num_points, as);
     const bool is_big = message.number("is_bigendian").value_or(0.0) != 0.0;
     for (std::size_t row = 0; row < height && width > 0; ++row) {
         std::vector<FieldSource> sources;
@@ -70,7 +70,7 @@ FileContents read_point_cloud2(const RosMessage& message, const Context& context
     std::optional<ScanGrid> grid;
     if (height > 1 && width > 1) grid = ScanGrid{height, width};
     FileContents contents;
-    contents.cloud = decoder.finish(std::nullopt, grid);
+    decoder.finish(contents, std::nullopt, grid);
     contents.format = rosbag_format;
     contents.encoding = "PointCloud2";
     contents.fields = std::move(fields);

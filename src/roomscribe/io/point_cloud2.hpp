@@ -9,6 +9,6 @@ namespace roomscribe {
 
 /// The points of a sensor_msgs/PointCloud2, properties as in PCD. Throws Error, with the reason, if
 /// it promises more than its bytes hold.
-FileContents read_point_cloud2(const RosMessage& message, const Context& context);
+FileContents read_point_cloud2(const RosMessage& message, PointsAs as, const Context& context);
 
 }  // namespace roomscribe

@@ -43,9 +43,11 @@ std::string lower_extension(const std::filesystem::path& path) {
     return extension;
 }
 
-std::vector<FileContents> read_contents(const std::filesystem::path& path, const Context& context) {
-    using ReadOne = FileContents (*)(const std::filesystem::path&, const Context&);
-    using ReadAll = std::vector<FileContents> (*)(const std::filesystem::path&, const Context&);
+std::vector<FileContents> read_contents(const std::filesystem::path& path, PointsAs as,
+                                        const Context& context) {
+    using ReadOne = FileContents (*)(const std::filesystem::path&, PointsAs, const Context&);
+    using ReadAll =
+        std::vector<FileContents> (*)(const std::filesystem::path&, PointsAs, const Context&);
     constexpr std::pair<std::string_view, ReadOne> single[] = {
         {".pcd", read_pcd},         {".ply", read_ply},         {".3d", read_uos},
         {".vtk", read_vtk},         {".las", read_las},         {".laz", read_las},
@@ -56,21 +58,21 @@ std::vector<FileContents> read_contents(const std::filesystem::path& path, const
         {".e57", read_e57}, {".ptx", read_ptx}, {".bag", read_rosbag}};
     if (std::filesystem::is_directory(path)) {
         const std::filesystem::path index = index_of_scans(path);
-        if (index.filename() == tum_index) return read_tum_folder(path, context);
+        if (index.filename() == tum_index) return read_tum_folder(path, as, context);
         if (index.filename() == tilted_scans_index) {
             std::vector<FileContents> contents;
-            contents.push_back(read_tilted_scans(index, context));
+            contents.push_back(read_tilted_scans(index, as, context));
             return contents;
         }
     }
     const std::string extension = lower_extension(path);
     for (const auto& [known, read] : several) {
-        if (extension == known) return read(path, context);
+        if (extension == known) return read(path, as, context);
     }
     std::vector<FileContents> contents;
     for (const auto& [known, read] : single) {
         if (extension != known) continue;
-        contents.push_back(read(path, context));
+        contents.push_back(read(path, as, context));
         return contents;
     }
     // A missing file or a folder is the better message.
@@ -101,23 +103,23 @@ void require_encoding(Encoding encoding, Encoding only, std::string_view allowed
     throw InvalidArgument("encoding", name, allowed);
 }
 
-void add_warnings(FileSummary& summary, const PointCloud& cloud,
-                  std::span<const std::uint32_t> finite) {
-    if (finite.empty()) {
+void add_warnings(FileSummary& summary, const PointSummary& points,
+                  const Eigen::Vector3d& global_shift) {
+    if (points.num_finite == 0) {
         summary.warnings.emplace_back("no point has finite coordinates");
         return;
     }
-    const double distance = median_distance(cloud.positions);
+    const double distance = median_distance(points.sample);
     if (distance > largest_median_distance) {
         summary.warnings.push_back(fmt::format(
             "half of the points are more than {:.0f} from their middle: the coordinates look like "
             "{}, where metres are expected",
             distance, distance > 10.0 * largest_median_distance ? "millimetres" : "centimetres"));
     }
-    if (!cloud.global_shift.isZero(0.0)) {
+    if (!global_shift.isZero(0.0)) {
         summary.warnings.push_back(
             fmt::format("far coordinates: positions are kept less {:.0f} {:.0f} {:.0f}",
-                        cloud.global_shift.x(), cloud.global_shift.y(), cloud.global_shift.z()));
+                        global_shift.x(), global_shift.y(), global_shift.z()));
     }
 }
 
@@ -127,20 +129,20 @@ FileSummary summarize(FileContents contents) {
     summary.name = std::move(contents.name);
     summary.format = std::move(contents.format);
     summary.encoding = std::move(contents.encoding);
-    summary.num_points = cloud.size();
+    const PointSummary& points = contents.summary;
+    summary.num_points = points.num_points;
+    summary.num_non_finite = points.num_points - points.num_finite;
+    if (!points.bounds.isEmpty()) {
+        summary.bounds = Eigen::AlignedBox3d(points.bounds.cast<double>());
+        summary.bounds.translate(cloud.global_shift);
+    }
     summary.fields = std::move(contents.fields);
     summary.grid = cloud.grid;
     summary.sensor_pose = cloud.sensor_pose;
     if (summary.sensor_pose) summary.sensor_pose->translation() += cloud.global_shift;
     summary.map_from_scan = contents.map_from_scan;
     summary.warnings = std::move(contents.warnings);
-
-    const std::vector<std::uint32_t> finite = finite_points(cloud);
-    summary.num_non_finite = cloud.size() - finite.size();
-    for (const std::uint32_t index : finite) {
-        summary.bounds.extend(cloud.positions[index].cast<double>() + cloud.global_shift);
-    }
-    add_warnings(summary, cloud, finite);
+    add_warnings(summary, points, cloud.global_shift);
     return summary;
 }
 
@@ -162,7 +164,7 @@ bool may_hold_poses(const std::filesystem::path& path) {
 }
 
 std::vector<StoredScan> read_scans(const std::filesystem::path& path, const Context& context) {
-    std::vector<FileContents> all = read_contents(path, context);
+    std::vector<FileContents> all = read_contents(path, PointsAs::cloud, context);
     const std::string file = path.filename().string();
     std::vector<StoredScan> scans;
     std::optional<Eigen::Vector3d> shift;
@@ -230,7 +232,7 @@ void write_point_cloud(const std::filesystem::path& path, const PointCloud& clou
 
 std::vector<FileSummary> summarize_file(const std::filesystem::path& path, const Context& context) {
     std::vector<FileSummary> summaries;
-    for (FileContents& contents : read_contents(path, context))
+    for (FileContents& contents : read_contents(path, PointsAs::summary, context))
         summaries.push_back(summarize(std::move(contents)));
     return summaries;
 }

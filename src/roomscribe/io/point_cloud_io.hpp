@@ -124,7 +124,9 @@ Scan read_scan(const std::filesystem::path& path, const Context& context = {});
 void write_point_cloud(const std::filesystem::path& path, const PointCloud& cloud,
                        const WriteOptions& options = {}, const Context& context = {});
 
-/// Reads the whole file and says what is in each of its scans. Throws as read_scan does.
+/// Reads the whole file and says what is in each of its scans. It keeps no points, so that the
+/// memory does not grow with the file, but for binary_compressed PCD and planar scans. Throws as
+/// read_scan does.
 std::vector<FileSummary> summarize_file(const std::filesystem::path& path,
                                         const Context& context = {});
 

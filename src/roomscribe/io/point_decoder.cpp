@@ -132,10 +132,9 @@ void copy_triple(std::byte* target, const SourceRun& run, const std::array<std::
 }
 
 /// Three values per point to float32, value * scale + offset; float32 keeps its bits.
-void decode_vectors(std::vector<Eigen::Vector3f>& vectors, const SourceRun& run,
+void decode_vectors(Eigen::Vector3f* target, const SourceRun& run,
                     const std::array<std::size_t, 3>& fields, std::span<const Field> all,
                     const Eigen::Vector3d& scale, const Eigen::Vector3d& offset) {
-    Eigen::Vector3f* target = vectors.data() + run.first;
     const bool exact = std::all_of(fields.begin(), fields.end(), [&](std::size_t field) {
         return all[field].type == ScalarType::float32;
     });
@@ -187,8 +186,8 @@ bool PointDecoder::has_positions(std::span<const Field> fields) {
            find_field(fields, {"z"}, any_type);
 }
 
-PointDecoder::PointDecoder(std::span<const Field> fields, std::size_t num_points)
-    : fields_(fields.begin(), fields.end()) {
+PointDecoder::PointDecoder(std::span<const Field> fields, std::size_t num_points, PointsAs as)
+    : fields_(fields.begin(), fields.end()), num_points_(num_points), as_(as) {
     std::vector<bool> taken(fields.size(), false);
     const auto find_triple = [&](Names first, Names second, Names third,
                                  Accepts accepts) -> std::optional<Triple> {
@@ -207,18 +206,22 @@ PointDecoder::PointDecoder(std::span<const Field> fields, std::size_t num_points
     intensity_ =
         find_field(fields_, {"intensity", "scalar_Intensity", "scalar_intensity"}, any_type);
     if (intensity_) taken[*intensity_] = true;
-
-    cloud_.positions.resize(num_points);
-    if (normal_) cloud_.normals.resize(num_points);
-    if (color_ || packed_color_) cloud_.colors.resize(num_points);
-    if (intensity_) cloud_.intensities.resize(num_points);
     for (std::size_t i = 0; i < fields_.size(); ++i) {
+        if (!taken[i] && fields_[i].name != "_") channel_fields_.push_back(i);
+    }
+    if (as_ == PointsAs::cloud) make_room();
+}
+
+void PointDecoder::make_room() {
+    cloud_.positions.resize(num_points_);
+    if (normal_) cloud_.normals.resize(num_points_);
+    if (color_ || packed_color_) cloud_.colors.resize(num_points_);
+    if (intensity_) cloud_.intensities.resize(num_points_);
+    for (const std::size_t i : channel_fields_) {
         const Field& field = fields_[i];
-        if (taken[i] || field.name == "_") continue;
         Channel channel{field.name, field.type, field.count, {}};
-        channel.values.resize(num_points * field.bytes());
+        channel.values.resize(num_points_ * field.bytes());
         cloud_.channels.push_back(std::move(channel));
-        channel_fields_.push_back(i);
     }
 }
 
@@ -253,17 +256,25 @@ void PointDecoder::decode(std::span<const FieldSource> sources, std::size_t firs
     const bool wide = std::any_of(position_.fields.begin(), position_.fields.end(),
                                   [&](std::size_t field) { return is_wide(fields_[field].type); });
     if (wide && !shift_known_) choose_global_shift({sources, 0, first, count, swap});
-    parallel_for(context, count, points_per_chunk, [&](std::size_t begin, std::size_t end) {
-        decode_run({sources, begin, first + begin, end - begin, swap});
-    });
+    const auto run = [&](std::size_t begin, std::size_t end) {
+        return SourceRun{sources, begin, first + begin, end - begin, swap};
+    };
+    if (as_ == PointsAs::cloud) {
+        parallel_for(context, count, points_per_chunk,
+                     [&](std::size_t begin, std::size_t end) { decode_run(run(begin, end)); });
+        return;
+    }
+    const PointSummary added = parallel_reduce(
+        context, count, points_per_chunk, PointSummary(),
+        [&](std::size_t begin, std::size_t end) { return summarize_run(run(begin, end)); }, joined);
+    summary_ = joined(std::move(summary_), added);
 }
 
 void PointDecoder::decode_mapped(std::span<const std::byte> records, std::endian order,
                                  const Context& context) {
-    constexpr std::size_t bytes_per_run = 1U << 24U;
     const std::size_t record = record_bytes(fields_);
     const std::size_t num_points = records.size() / record;
-    const std::size_t points_per_run = std::max<std::size_t>(1, bytes_per_run / record);
+    const std::size_t points_per_run = std::max<std::size_t>(1, bytes_let_go_at_once / record);
     for (std::size_t first = 0; first < num_points; first += points_per_run) {
         const std::size_t count = std::min(points_per_run, num_points - first);
         const auto run = records.subspan(first * record, count * record);
@@ -272,12 +283,21 @@ void PointDecoder::decode_mapped(std::span<const std::byte> records, std::endian
     }
 }
 
+void PointDecoder::decode_positions(Eigen::Vector3f* target, const SourceRun& run) const {
+    decode_vectors(target, run, position_.fields, fields_, scale_, offset_ - cloud_.global_shift);
+}
+
+PointSummary PointDecoder::summarize_run(const SourceRun& run) const {
+    std::vector<Eigen::Vector3f> positions(run.count);
+    decode_positions(positions.data(), run);
+    return summarize_points(positions, run.first, num_points_);
+}
+
 void PointDecoder::decode_run(const SourceRun& run) {
-    decode_vectors(cloud_.positions, run, position_.fields, fields_, scale_,
-                   offset_ - cloud_.global_shift);
+    decode_positions(cloud_.positions.data() + run.first, run);
     if (normal_) {
-        decode_vectors(cloud_.normals, run, normal_->fields, fields_, Eigen::Vector3d::Ones(),
-                       Eigen::Vector3d::Zero());
+        decode_vectors(cloud_.normals.data() + run.first, run, normal_->fields, fields_,
+                       Eigen::Vector3d::Ones(), Eigen::Vector3d::Zero());
     }
     if (color_) {
         copy_triple(reinterpret_cast<std::byte*>(cloud_.colors.data() + run.first), run,
@@ -314,12 +334,13 @@ void PointDecoder::decode_run(const SourceRun& run) {
     }
 }
 
-PointCloud PointDecoder::finish(const std::optional<Transform>& file_sensor_pose,
-                                const std::optional<ScanGrid>& grid) {
-    cloud_.grid = grid;
-    cloud_.sensor_pose = file_sensor_pose;
-    if (file_sensor_pose) cloud_.sensor_pose->translation() -= cloud_.global_shift;
-    return std::move(cloud_);
+void PointDecoder::finish(FileContents& contents, const std::optional<Transform>& file_sensor_pose,
+                          const std::optional<ScanGrid>& grid) {
+    contents.cloud = std::move(cloud_);
+    contents.cloud.grid = grid;
+    contents.cloud.sensor_pose = file_sensor_pose;
+    if (file_sensor_pose) contents.cloud.sensor_pose->translation() -= contents.cloud.global_shift;
+    contents.summary = std::move(summary_);
 }
 
 }  // namespace roomscribe

@@ -10,6 +10,7 @@
 
 #include "roomscribe/core/context.hpp"
 #include "roomscribe/geometry/point_cloud.hpp"
+#include "roomscribe/io/file_contents.hpp"
 #include "roomscribe/io/point_fields.hpp"
 
 namespace roomscribe {
@@ -31,11 +32,12 @@ std::vector<FieldSource> record_sources(std::span<const Field> fields, const std
 /// One value of a type, its bytes turned round if `swap`, as double.
 double load_as_double(const std::byte* bytes, ScalarType type, bool swap);
 
-/// Turns the fields of a file into a cloud, by the rules of names in point_cloud_io.hpp.
+/// Turns the fields of a file into a cloud, by the rules of names in point_cloud_io.hpp, or into
+/// the summary of one, of which it then keeps no points.
 class PointDecoder {
   public:
-    /// Makes room for the points. Precondition: has_positions(fields).
-    PointDecoder(std::span<const Field> fields, std::size_t num_points);
+    /// Makes room for the points of a cloud. Precondition: has_positions(fields).
+    PointDecoder(std::span<const Field> fields, std::size_t num_points, PointsAs as);
 
     /// Positions in the file are steps: value * scale + offset, in double. Call it before decode.
     void quantize_positions(const Eigen::Vector3d& scale, const Eigen::Vector3d& offset);
@@ -47,9 +49,10 @@ class PointDecoder {
     void decode(std::span<const FieldSource> sources, std::size_t first, std::size_t count,
                 std::endian order, const Context& context);
 
-    /// The cloud; a sensor pose in the file's coordinates is moved by the global shift.
-    PointCloud finish(const std::optional<Transform>& file_sensor_pose,
-                      const std::optional<ScanGrid>& grid);
+    /// Puts the cloud or the summary where it belongs. A sensor pose in the file's coordinates is
+    /// moved by the global shift.
+    void finish(FileContents& contents, const std::optional<Transform>& file_sensor_pose,
+                const std::optional<ScanGrid>& grid);
 
     /// The same for all points, whose records lie in a MappedFile one behind another: the memory of
     /// each run of them is given back once it is decoded.
@@ -61,10 +64,15 @@ class PointDecoder {
         std::array<std::size_t, 3> fields;
     };
 
+    void make_room();
     void choose_global_shift(const SourceRun& run);
+    void decode_positions(Eigen::Vector3f* target, const SourceRun& run) const;
     void decode_run(const SourceRun& run);
+    PointSummary summarize_run(const SourceRun& run) const;
 
     std::vector<Field> fields_;
+    std::size_t num_points_;
+    PointsAs as_;
     Triple position_;
     std::optional<Triple> normal_;
     std::optional<Triple> color_;
@@ -75,6 +83,7 @@ class PointDecoder {
     Eigen::Vector3d offset_ = Eigen::Vector3d::Zero();
     bool shift_known_ = false;
     PointCloud cloud_;
+    PointSummary summary_;
 };
 
 }  // namespace roomscribe

@@ -152,7 +152,7 @@ void PointColumns::add_positions(const PointCloud& cloud) {
         position = cloud.positions[range_.first + i].cast<double>() + cloud.global_shift;
     }
     for (std::size_t k = 0; k < 3; ++k) {
-        add(names[k], ScalarType::float64, cloud.empty() ? nullptr : far.data() + k,
+        add(names[k], ScalarType::float64, far.empty() ? nullptr : far.data() + k,
             3 * sizeof(double));
     }
 }

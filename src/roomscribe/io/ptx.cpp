@@ -77,7 +77,7 @@ bool holds_more(const ByteReader& reader) {
     return reader.remaining_text().find_first_not_of(" \t\r\n") != std::string_view::npos;
 }
 
-FileContents read_one(ByteReader& reader, const Context& context) {
+FileContents read_one(ByteReader& reader, PointsAs as, const Context& context) {
     const std::uint64_t num_columns = read_count(reader, "columns");
     const std::uint64_t num_rows = read_count(reader, "rows");
     // A line of a point has at least 5 bytes, and the last may lack its end.
@@ -96,10 +96,11 @@ FileContents read_one(ByteReader& reader, const Context& context) {
     contents.format = "PTX";
     contents.encoding = "ascii";
     contents.fields = row_fields(names);
-    contents.cloud = decode_rows(reader, blocks, format, contents.fields, 1.0, true, context);
-    if (contents.cloud.size() < num_points) {
-        reader.fail_at_byte(
-            fmt::format("there are {} of {} points", contents.cloud.size(), num_points), cure);
+    decode_rows(reader, blocks, format, 1.0, true, as, contents, context);
+    const std::size_t num_rows_found = count_rows(blocks);
+    if (num_rows_found < num_points) {
+        reader.fail_at_byte(fmt::format("there are {} of {} points", num_rows_found, num_points),
+                            cure);
     }
     if (num_columns > 1 && num_rows > 1) contents.cloud.grid = ScanGrid{num_columns, num_rows};
     return contents;
@@ -107,13 +108,14 @@ FileContents read_one(ByteReader& reader, const Context& context) {
 
 }  // namespace
 
-std::vector<FileContents> read_ptx(const std::filesystem::path& path, const Context& context) {
+std::vector<FileContents> read_ptx(const std::filesystem::path& path, PointsAs as,
+                                   const Context& context) {
     const MappedFile file(path, "PTX");
     ByteReader reader(file, "PTX");
     std::vector<FileContents> scans;
     while (scans.empty() || holds_more(reader)) {
         context.throw_if_cancelled();
-        scans.push_back(read_one(reader, context));
+        scans.push_back(read_one(reader, as, context));
     }
     return scans;
 }

@@ -15,6 +15,7 @@ namespace roomscribe {
 /// return, 0 0 0 in the file, is NaN. The 4x4 matrix of a scan multiplies row vectors from the
 /// right (its last row is the translation); the four lines before it, which say the same again, are
 /// not used.
-std::vector<FileContents> read_ptx(const std::filesystem::path& path, const Context& context);
+std::vector<FileContents> read_ptx(const std::filesystem::path& path, PointsAs as,
+                                   const Context& context);
 
 }  // namespace roomscribe

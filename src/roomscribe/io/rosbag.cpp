@@ -31,8 +31,8 @@ bool is_transforms(const BagConnection& connection) {
 
 class BagReader {
   public:
-    BagReader(const std::filesystem::path& path, const Context& context)
-        : file_(path, rosbag_format), context_(context) {}
+    BagReader(const std::filesystem::path& path, PointsAs as, const Context& context)
+        : file_(path, rosbag_format), as_(as), context_(context) {}
 
     std::vector<FileContents> read() {
         look_through();
@@ -44,6 +44,7 @@ class BagReader {
             laser.topic = name_of(topic);
             try {
                 contents.push_back(assemble_laser_scans(laser, transforms_));
+                keep_points(as_, contents.back());
             } catch (const Error& error) {
                 fail(fmt::format("topic {}: {}", topic, error.what()));
             }
@@ -136,7 +137,7 @@ class BagReader {
                 // Of many clouds the first of each of `wanted` equal parts.
                 if (i > 0 && i * wanted / count == (i - 1) * wanted / count) return;
                 with_message(connection, bytes, [&](const RosMessage& message) {
-                    all.push_back(read_point_cloud2(message, context_));
+                    all.push_back(read_point_cloud2(message, as_, context_));
                     all.back().name = count == 1
                                           ? name_of(connection.topic)
                                           : fmt::format("{}-{}", name_of(connection.topic), i + 1);
@@ -154,6 +155,7 @@ class BagReader {
     }
 
     MappedFile file_;
+    PointsAs as_;
     const Context& context_;
     std::map<std::string, RosDefinition> definitions_;  ///< by their text
     std::map<std::string, std::size_t> num_clouds_;     ///< by topic
@@ -163,8 +165,9 @@ class BagReader {
 
 }  // namespace
 
-std::vector<FileContents> read_rosbag(const std::filesystem::path& path, const Context& context) {
-    return BagReader(path, context).read();
+std::vector<FileContents> read_rosbag(const std::filesystem::path& path, PointsAs as,
+                                      const Context& context) {
+    return BagReader(path, as, context).read();
 }
 
 }  // namespace roomscribe

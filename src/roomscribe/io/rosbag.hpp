@@ -22,6 +22,7 @@ namespace roomscribe {
 ///
 /// Ranges outside of range_min and range_max are no returns. Throws IoError if there is neither, or
 /// nothing that says how the scanner was turned.
-std::vector<FileContents> read_rosbag(const std::filesystem::path& path, const Context& context);
+std::vector<FileContents> read_rosbag(const std::filesystem::path& path, PointsAs as,
+                                      const Context& context);
 
 }  // namespace roomscribe

@@ -31,13 +31,11 @@ std::vector<Field> row_fields(std::span<const std::string> names) {
     return fields;
 }
 
-PointCloud decode_rows(const ByteReader& reader, std::span<const RowBlock> blocks,
-                       const RowFormat& format, std::span<const Field> fields, double color_factor,
-                       bool zero_is_missing, const Context& context) {
-    std::size_t num_points = 0;
-    for (const RowBlock& block : blocks)
-        num_points += block.num_rows;
-    PointDecoder decoder(fields, num_points);
+void decode_rows(const ByteReader& reader, std::span<const RowBlock> blocks,
+                 const RowFormat& format, double color_factor, bool zero_is_missing, PointsAs as,
+                 FileContents& contents, const Context& context) {
+    const std::span<const Field> fields = contents.fields;
+    PointDecoder decoder(fields, count_rows(blocks), as);
 
     std::vector<std::size_t> colors;
     for (std::size_t i = 0; i < fields.size(); ++i) {
@@ -66,7 +64,7 @@ PointCloud decode_rows(const ByteReader& reader, std::span<const RowBlock> block
         first += count;
     };
     read_rows(reader, blocks, format, context, convert, consume);
-    return decoder.finish(std::nullopt, std::nullopt);
+    decoder.finish(contents, std::nullopt, std::nullopt);
 }
 
 }  // namespace roomscribe

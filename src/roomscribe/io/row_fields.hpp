@@ -16,10 +16,11 @@ std::vector<Field> row_fields(std::span<const std::string> names);
 /// Rounded, and kept within 0 to 255; 0 for NaN.
 std::uint8_t color_byte(double value);
 
-/// Reads rows into a cloud. Colours are multiplied with `color_factor`, rounded and kept within 0
-/// to 255. `zero_is_missing`: a point 0 0 0 is a ray without return, and becomes NaN.
-PointCloud decode_rows(const ByteReader& reader, std::span<const RowBlock> blocks,
-                       const RowFormat& format, std::span<const Field> fields, double color_factor,
-                       bool zero_is_missing, const Context& context);
+/// Reads rows of `contents.fields` into its cloud or summary. Colours are multiplied with
+/// `color_factor`, rounded and kept within 0 to 255. `zero_is_missing`: a point 0 0 0 is a ray
+/// without return, and becomes NaN.
+void decode_rows(const ByteReader& reader, std::span<const RowBlock> blocks,
+                 const RowFormat& format, double color_factor, bool zero_is_missing, PointsAs as,
+                 FileContents& contents, const Context& context);
 
 }  // namespace roomscribe

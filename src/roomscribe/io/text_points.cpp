@@ -136,9 +136,7 @@ std::vector<RowBlock> take_all_rows(ByteReader& reader, std::optional<std::uint6
     while (count) {
         reader.require_backed(*count, 5, "points");
         const std::vector<RowBlock> part = take_row_blocks(reader, *count);
-        std::size_t num_rows = 0;
-        for (const RowBlock& block : part)
-            num_rows += block.num_rows;
+        const std::size_t num_rows = count_rows(part);
         if (num_rows < *count) {
             reader.fail_at_byte(fmt::format("there are {} of {} points", num_rows, *count),
                                 "the file is cut off: copy it again");
@@ -155,7 +153,8 @@ std::vector<RowBlock> take_all_rows(ByteReader& reader, std::optional<std::uint6
 
 }  // namespace
 
-FileContents read_text_points(const std::filesystem::path& path, const Context& context) {
+FileContents read_text_points(const std::filesystem::path& path, PointsAs as,
+                              const Context& context) {
     const MappedFile file(path, format_name);
     ByteReader reader(file, format_name);
     const std::string_view comment = skip_comments(reader);
@@ -170,8 +169,7 @@ FileContents read_text_points(const std::filesystem::path& path, const Context& 
     contents.fields = row_fields(guess.names);
     contents.warnings.push_back(describe(guess));
     context.report_message(path.filename().string() + ": " + contents.warnings.front());
-    contents.cloud = decode_rows(reader, blocks, guess.format, contents.fields, guess.color_factor,
-                                 false, context);
+    decode_rows(reader, blocks, guess.format, guess.color_factor, false, as, contents, context);
     return contents;
 }
 

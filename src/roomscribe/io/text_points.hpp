@@ -13,7 +13,8 @@ namespace roomscribe {
 /// line and the columns are guessed (guessed_columns.hpp); what was guessed goes to
 /// Context::on_message and to the warnings. Lines that begin with # or // are skipped at the top;
 /// the last of them may name the columns. Columns that mean nothing are channels of float64.
-FileContents read_text_points(const std::filesystem::path& path, const Context& context);
+FileContents read_text_points(const std::filesystem::path& path, PointsAs as,
+                              const Context& context);
 
 /// Writes every property as columns, and their names before them: "# x y z intensity" and blanks,
 /// or commas and a plain header line for .csv. Numbers have all their digits.

@@ -148,7 +148,8 @@ void place_points(const TiltedScans& input, PointCloud& cloud) {
 
 }  // namespace
 
-FileContents read_tilted_scans(const std::filesystem::path& path, const Context& context) {
+FileContents read_tilted_scans(const std::filesystem::path& path, PointsAs as,
+                               const Context& context) {
     const MappedFile file(path, format);
     ByteReader reader(file, format);
     TiltedScans input;
@@ -164,6 +165,7 @@ FileContents read_tilted_scans(const std::filesystem::path& path, const Context&
     }
     FileContents contents{{}, "tilted scans", "ascii", {{"range", ScalarType::float64, 1}}, {}};
     place_points(input, contents.cloud);
+    keep_points(as, contents);
     return contents;
 }
 

@@ -30,7 +30,8 @@ namespace roomscribe {
 /// y. A ray of bearing b and range r at tilt t ends at R_y(t) (offset + r (cos b, sin b, 0)). The
 /// cloud has a grid, a row a planar scan; no return is NaN. Its sensor pose is the origin, where
 /// the axis is: rays begin `offset` beside it.
-FileContents read_tilted_scans(const std::filesystem::path& path, const Context& context);
+FileContents read_tilted_scans(const std::filesystem::path& path, PointsAs as,
+                               const Context& context);
 
 /// What the file of a folder of planar scans is called.
 inline constexpr const char* tilted_scans_index = "scans.tilt";

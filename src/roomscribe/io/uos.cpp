@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -11,6 +12,7 @@
 #include "roomscribe/core/units.hpp"
 #include "roomscribe/io/atomic_file.hpp"
 #include "roomscribe/io/byte_reader.hpp"
+#include "roomscribe/io/number_rows.hpp"
 #include "roomscribe/io/number_text.hpp"
 #include "roomscribe/io/point_decoder.hpp"
 
@@ -56,18 +58,8 @@ std::vector<Field> uos_fields(std::size_t num_columns) {
     return fields;
 }
 
-std::size_t count_lines_with_content(std::string_view text) {
-    std::size_t count = 0;
-    bool blank = true;
-    for (const char c : text) {
-        if (c == '\n') {
-            count += blank ? 0 : 1;
-            blank = true;
-        } else if (c != ' ' && c != '\t' && c != '\r') {
-            blank = false;
-        }
-    }
-    return count + (blank ? 0 : 1);
+std::size_t count_lines_with_content(ByteReader reader) {
+    return count_rows(take_row_blocks(reader, std::numeric_limits<std::size_t>::max()));
 }
 
 void convert_axes(double* point) {
@@ -78,16 +70,16 @@ void convert_axes(double* point) {
 
 }  // namespace
 
-FileContents read_uos(const std::filesystem::path& path, const Context& context) {
+FileContents read_uos(const std::filesystem::path& path, PointsAs as, const Context& context) {
     const MappedFile file(path, "UOS");
     ByteReader reader(file, "UOS");
     skip_comments(reader);
     const std::size_t num_columns = count_columns(reader);
-    const std::size_t num_points = count_lines_with_content(reader.remaining_text());
+    const std::size_t num_points = count_lines_with_content(reader);
     reader.require_backed(num_points, 2 * num_columns - 1, "points");
 
     FileContents contents{{}, "UOS", "ascii", uos_fields(num_columns), {}};
-    PointDecoder decoder(contents.fields, num_points);
+    PointDecoder decoder(contents.fields, num_points, as);
     const std::vector<TextColumn> columns(num_columns, {ScalarType::float64});
     TextTable table(reader, columns);
     std::vector<double> rows(std::min(rows_per_chunk, num_points) * num_columns);
@@ -103,7 +95,7 @@ FileContents read_uos(const std::filesystem::path& path, const Context& context)
         }
         decoder.decode(sources, first, count, std::endian::native, context);
     }
-    contents.cloud = decoder.finish(std::nullopt, std::nullopt);
+    decoder.finish(contents, std::nullopt, std::nullopt);
     return contents;
 }
 

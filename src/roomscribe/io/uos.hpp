@@ -27,7 +27,7 @@ namespace roomscribe {
 /// Reads a .3d file. The .pose beside it is not applied, and returns that are too near or too far
 /// to be true are kept. A fourth column, if it is the last, is the intensity; of more columns each
 /// is a channel column_4, column_5, ... of float64. Lines that begin with # are skipped at the top.
-FileContents read_uos(const std::filesystem::path& path, const Context& context);
+FileContents read_uos(const std::filesystem::path& path, PointsAs as, const Context& context);
 
 /// Writes positions and intensities with 9 digits: read_uos gives the same float32 back.
 void write_uos(const std::filesystem::path& path, const PointCloud& cloud, const Context& context);

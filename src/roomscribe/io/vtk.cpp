@@ -79,7 +79,7 @@ Header read_header(ByteReader& reader) {
 
 }  // namespace
 
-FileContents read_vtk(const std::filesystem::path& path, const Context& context) {
+FileContents read_vtk(const std::filesystem::path& path, PointsAs as, const Context& context) {
     const MappedFile file(path, "VTK");
     ByteReader reader(file, "VTK");
     const Header header = read_header(reader);
@@ -88,14 +88,16 @@ FileContents read_vtk(const std::filesystem::path& path, const Context& context)
     const bool ascii = header.encoding == "ascii";
     // Three values of a digit and a space or line end each, but for the very last.
     reader.require_backed(header.num_points, ascii ? 5 : record_bytes(fields), "points");
-    PointDecoder decoder(fields, header.num_points);
+    PointDecoder decoder(fields, header.num_points, as);
     if (ascii) {
         decode_text(reader, fields, header.num_points, true, decoder, context);
     } else {
         decoder.decode_mapped(reader.take(header.num_points * record_bytes(fields)),
                               std::endian::big, context);
     }
-    return {decoder.finish(std::nullopt, std::nullopt), "VTK", header.encoding, fields, {}};
+    FileContents contents{{}, "VTK", header.encoding, fields, {}};
+    decoder.finish(contents, std::nullopt, std::nullopt);
+    return contents;
 }
 
 }  // namespace roomscribe

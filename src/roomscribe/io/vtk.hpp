@@ -11,6 +11,6 @@ namespace roomscribe {
 /// The POINTS of a legacy VTK file, POLYDATA or UNSTRUCTURED_GRID, ASCII or BINARY (big endian).
 /// What follows them (cells, point data) is not read.
 /// Source: "VTK File Formats", simple legacy formats.
-FileContents read_vtk(const std::filesystem::path& path, const Context& context);
+FileContents read_vtk(const std::filesystem::path& path, PointsAs as, const Context& context);
 
 }  // namespace roomscribe

@@ -27,6 +27,10 @@ constexpr double cells_along_extent = 60.0;
 /// residuals that measures noise rather than shape.
 constexpr double smooth_quantile = 0.3;
 
+/// m, walls are not smooth farther than from one pier, door or cupboard to the next: within more,
+/// shape is taken for noise, above all of a cloud that is thin and large.
+constexpr double max_smooth_radius = 0.3;
+
 /// Of the finite points; some hundred thousand of them are enough.
 double middle_extent(const std::vector<Eigen::Vector3f>& points) {
     const std::size_t stride = std::max<std::size_t>(1, points.size() / 200'000);
@@ -162,6 +166,7 @@ ScanStatistics estimate_scan_statistics(const PointCloud& cloud, const Context& 
 
     // As small and as large as a voxel may be: a cloud in a wrong unit is measured all the same.
     const double cell_size = std::clamp(statistics.extent / cells_along_extent, 1e-6, 1e6);
+    const double smooth_radius = std::min(cell_size, max_smooth_radius);
     const CellLists cells(cloud, cell_size, context);
     // Every occupied cell counts once, so that the dense zone near the scanner does not decide; a
     // thousand of them are enough.
@@ -171,7 +176,7 @@ ScanStatistics estimate_scan_statistics(const PointCloud& cloud, const Context& 
         std::vector<Neighbor> neighbors;
         for (std::size_t i = begin; i < end; ++i) {
             const std::size_t num_nearest = cells.neighbors_of(i * stride, neighbors);
-            measures[i] = measure(cloud.positions, neighbors, num_nearest, cell_size);
+            measures[i] = measure(cloud.positions, neighbors, num_nearest, smooth_radius);
         }
     });
 

@@ -15,7 +15,7 @@ struct ScanStatistics {
     /// distance between neighbouring points.
     double point_spacing = 0.0;
     /// m, standard deviation of the points about smooth surface: a low quantile of the residuals of
-    /// local planes, so that edges and clutter do not count.
+    /// local planes no larger than 0.6 m, so that edges and clutter do not count.
     double noise = 0.0;
     /// m, diagonal of the box that holds the middle 98 % of the points along each axis.
     double extent = 0.0;

@@ -323,6 +323,8 @@ TEST(BadFiles, ThousandsOfDamagedFilesAreReadOrRefused) {
                 } else {
                     const FileSummary summary = summarize_file(path, one_thread).front();
                     EXPECT_LE(summary.num_points, 1000000U);
+                    const Scan scan = read_scans(path, one_thread).front().scan;
+                    EXPECT_EQ(scan.cloud.size(), summary.num_points);
                 }
                 ++num_read;
             } catch (const IoError& error) {

@@ -20,7 +20,7 @@ namespace {
 std::vector<FileContents> read_bag(const std::string& bytes) {
     const test::TemporaryFolder folder;
     test::write_bytes(folder / "a.bag", bytes);
-    return read_rosbag(folder / "a.bag", {});
+    return read_rosbag(folder / "a.bag", PointsAs::cloud, {});
 }
 
 void expect_refused(const std::string& bytes, const std::string& reason) {

@@ -51,6 +51,19 @@ TEST(ScanStatistics, StepsOfDepthAreNoiseToo) {
     EXPECT_NEAR(statistics_of(points).noise, static_cast<double>(step) / std::sqrt(12.0), 0.003);
 }
 
+TEST(ScanStatistics, ShapeIsNoNoiseInLargeAndThinClouds) {
+    Random random(3);
+    // A floor of 40 m, a point each 10 cm, with platforms 2 m wide.
+    std::vector<Eigen::Vector3f> points = test::grid_points(400, 400, 0.1);
+    for (Eigen::Vector3f& point : points) {
+        const int squares = static_cast<int>(std::floor(point.x() / 2.0F)) +
+                            static_cast<int>(std::floor(point.y() / 2.0F));
+        if (squares % 2 != 0) point.z() += 0.4F;
+    }
+    test::add_noise(points, 0.01, random);
+    EXPECT_NEAR(statistics_of(points).noise, 0.01, 0.003);
+}
+
 TEST(ScanStatistics, FindsNoNoiseWhereThereIsNone) {
     Random random(2);
     const ScanStatistics statistics = statistics_of(corner(random, 0.05, 0.0));
