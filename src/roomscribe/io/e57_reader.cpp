@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <type_traits>
 
 #include <fmt/format.h>
 #include <pugixml.hpp>
@@ -375,10 +376,16 @@ class GridFinder {
     std::size_t seen_ = 0;
 };
 
-/// Puts the value of a field, in its own type, into the first bytes of the double.
+/// Puts the value of a field, in its own type, into the first bytes of the double. Packed bits may
+/// hold more than the range that the file declares, and so more than its type.
 void store_as(double& slot, ScalarType type) {
     with_scalar_type(type, [&]<typename Value>(std::type_identity<Value>) {
-        if constexpr (!std::is_same_v<Value, double>) {
+        if constexpr (std::is_integral_v<Value>) {
+            using Limits = std::numeric_limits<Value>;
+            const auto value = static_cast<Value>(std::clamp(
+                slot, static_cast<double>(Limits::min()), static_cast<double>(Limits::max())));
+            std::memcpy(&slot, &value, sizeof(value));
+        } else if constexpr (!std::is_same_v<Value, double>) {
             const auto value = static_cast<Value>(slot);
             std::memcpy(&slot, &value, sizeof(value));
         }
