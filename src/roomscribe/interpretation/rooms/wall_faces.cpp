@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <optional>
 #include <set>
@@ -83,6 +84,8 @@ class FaceFinder {
     AboveFace look_above(const WallFace& face, std::optional<double> ceiling) const;
     bool is_wall(const WallFace& face, std::optional<double> ceiling) const;
     bool is_closed_between(const WallFace& wall, double from, double to) const;
+    std::set<int> columns_of(const WallFace& face, const Vector3d& along, double from,
+                             double to) const;
     double shared_columns(const WallFace& wall, const WallFace& face) const;
     bool continues(const WallFace& wall, const WallFace& face) const;
     void absorb(WallFace& wall, const WallFace& face) const;
@@ -284,18 +287,24 @@ bool FaceFinder::is_closed_between(const WallFace& wall, double from, double to)
     return closed >= min_share * count;
 }
 
+/// The columns in a direction in which a face was seen between two heights.
+std::set<int> FaceFinder::columns_of(const WallFace& face, const Vector3d& along, double from,
+                                     double to) const {
+    std::set<int> columns;
+    for (const std::uint32_t voxel : face.voxels) {
+        const Vector3d point = sample_.cloud.positions[voxel].cast<double>();
+        const double height = point.dot(up_);
+        if (height >= from && height <= to)
+            columns.insert(static_cast<int>(std::floor(point.dot(along) / column_width)));
+    }
+    return columns;
+}
+
 /// Share of the columns in which the face was seen where the wall was seen as well.
 double FaceFinder::shared_columns(const WallFace& wall, const WallFace& face) const {
-    const auto columns = [&](const WallFace& of) {
-        std::set<int> seen;
-        for (const std::uint32_t voxel : of.voxels) {
-            const double along = sample_.cloud.positions[voxel].cast<double>().dot(wall.along);
-            seen.insert(static_cast<int>(std::floor(along / column_width)));
-        }
-        return seen;
-    };
-    const std::set<int> of_wall = columns(wall);
-    const std::set<int> of_face = columns(face);
+    constexpr double any = std::numeric_limits<double>::infinity();
+    const std::set<int> of_wall = columns_of(wall, wall.along, -any, any);
+    const std::set<int> of_face = columns_of(face, wall.along, -any, any);
     const auto shared = std::count_if(of_face.begin(), of_face.end(),
                                       [&](int column) { return of_wall.count(column) > 0; });
     return static_cast<double>(shared) / static_cast<double>(of_face.size());
@@ -359,13 +368,7 @@ bool FaceFinder::is_leaf_of(const WallFace& face, const WallFace& wall) const {
     if (depth(ends[0]) > depth(ends[1])) std::swap(ends[0], ends[1]);
     if (depth(ends[0]) > max_hinge_depth || depth(ends[1]) < depth(ends[0]) + 0.1) return false;
 
-    std::set<int> solid;
-    for (const std::uint32_t voxel : wall.voxels) {
-        const Vector3d point = sample_.cloud.positions[voxel].cast<double>();
-        const double height = point.dot(up_) - floor;
-        if (height < body_bottom || height > body_top) continue;
-        solid.insert(static_cast<int>(std::floor(point.dot(wall.along) / column_width)));
-    }
+    const std::set<int> solid = columns_of(wall, wall.along, floor + body_bottom, floor + body_top);
     const double hinge = ends[0].dot(wall.along);
     for (const double side : {-1.0, 1.0}) {
         const double far = hinge + side * face.width();
