@@ -305,6 +305,9 @@ void join(Building& building) {
 Building describe_building(const Scene& scene) {
     Building building;
     building.scene = transformed_scene(scene, scene.room_from_map);
+    std::erase_if(building.scene.components, [](const Component& component) {
+        return component.verdict == Verdict::rejected;
+    });
     building.storeys = find_storeys(building.scene.rooms);
     for (const Component& component : building.scene.components)
         building.room_of.push_back(room_of(building.scene, component));
@@ -359,6 +362,20 @@ std::optional<std::size_t> find_room(const Scene& scene, std::string_view id) {
         if (scene.rooms[i].id == id) return i;
     }
     return std::nullopt;
+}
+
+double floor_below(const Building& building, std::size_t component) {
+    const auto room = building.room_of[component];
+    return room ? building.scene.rooms[*room].floor_height
+                : building.storeys[building.storey_of[component]].elevation;
+}
+
+const Component* frame_around(const Building& building, std::size_t filling) {
+    for (const Opening& opening : building.openings) {
+        if (opening.filling == filling && opening.frame)
+            return &building.scene.components[*opening.frame];
+    }
+    return nullptr;
 }
 
 std::vector<Eigen::Vector2d> plan_of_room(const Room& room) {

@@ -35,7 +35,8 @@ struct Opening {
     std::size_t component() const { return filling ? *filling : frame ? *frame : *passage; }
 };
 
-/// A scene as builders see it. Indices are into `scene`, which is in the room frame.
+/// A scene as builders see it. Indices are into `scene`, which is in the room frame and without
+/// what is rejected.
 struct Building {
     Scene scene;
     std::vector<BuildingStorey> storeys;  ///< from below; at least one
@@ -67,6 +68,11 @@ struct BoxSize {
     double height = 0.0;
 };
 BoxSize box_size(const OrientedBox& box);
+
+/// Height of the floor of the room that a component is in, else of its storey.
+double floor_below(const Building& building, std::size_t component);
+/// The frame of a door or window; null where it has none in its wall.
+const Component* frame_around(const Building& building, std::size_t filling);
 
 /// By id; empty if there is none.
 std::optional<std::size_t> find_component(const Scene& scene, std::string_view id);

@@ -140,16 +140,13 @@ Schedule openings_schedule(const Building& building, Label label, const char* fi
         double lowest = component.polygon.empty() ? 0.0 : component.polygon.front().z();
         for (const Eigen::Vector3d& corner : component.polygon)
             lowest = std::min(lowest, corner.z());
-        const auto room = building.room_of[i];
-        row.push_back(number(lowest - (room ? building.scene.rooms[*room].floor_height : 0.0)));
-        Row frame(3);
-        for (const Opening& opening : building.openings) {
-            if (opening.filling != i || !opening.frame) continue;
-            const Component& around = building.scene.components[*opening.frame];
-            const ComponentSize outer = flat_size(around);
-            frame = {around.id, number(outer.width), number(outer.height)};
+        row.push_back(number(lowest - floor_below(building, i)));
+        if (const Component* frame = frame_around(building, i)) {
+            const ComponentSize outer = flat_size(*frame);
+            row.insert(row.end(), {frame->id, number(outer.width), number(outer.height)});
+        } else {
+            row.resize(row.size() + 3);
         }
-        row.insert(row.end(), frame.begin(), frame.end());
         row.emplace_back(component.opens ? motion_kind_name(component.opens->kind) : "");
         append_trust(row, component);
         rows.push_back(std::move(row));

@@ -246,17 +246,9 @@ std::string rooms_in_words(const Scene& scene) {
 
 }  // namespace
 
-Building listed_building(const Scene& scene) {
-    Scene listed = scene;
-    std::erase_if(listed.components, [](const Component& component) {
-        return component.verdict == Verdict::rejected;
-    });
-    return describe_building(listed);
-}
-
 std::string floor_plan_drawing(const Scene& scene) {
     if (scene.rooms.empty()) return {};
-    const std::string svg = plans_to_svg(draw_floor_plans(listed_building(scene)));
+    const std::string svg = plans_to_svg(draw_floor_plans(describe_building(scene)));
     return fmt::format(
         "<figure>\n<figcaption><strong>Floor plan</strong><span>1:50 on paper, lengths in metres. "
         "<code>roomscribe export</code> gives it as SVG and DXF.</span></figcaption>\n"
@@ -269,7 +261,7 @@ std::string floor_plan_drawing(const Scene& scene) {
 }
 
 std::string wall_elevations(const Scene& scene) {
-    const Building building = listed_building(scene);
+    const Building building = describe_building(scene);
     std::vector<Elevation> elevations;
     for (std::size_t i = 0; i < building.walls.size(); ++i) {
         for (const FaceInPlan& face : building.walls[i].faces)

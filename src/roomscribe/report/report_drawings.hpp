@@ -3,13 +3,9 @@
 
 #include <string>
 
-#include "roomscribe/export/building.hpp"
 #include "roomscribe/model/scene.hpp"
 
 namespace roomscribe {
-
-/// As builders see what is not rejected.
-Building listed_building(const Scene& scene);
 
 // Drawings of the model with dimensions, as HTML. Empty where there is nothing to draw. What is
 // rejected is left out.

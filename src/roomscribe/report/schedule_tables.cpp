@@ -8,7 +8,6 @@
 
 #include "roomscribe/export/building.hpp"
 #include "roomscribe/report/html_text.hpp"
-#include "roomscribe/report/report_drawings.hpp"
 
 namespace roomscribe {
 namespace {
@@ -34,24 +33,10 @@ std::string motion_of(const Component& component) {
     return component.opens ? std::string(motion_kind_name(component.opens->kind)) : none;
 }
 
-double floor_below(const Building& building, std::size_t component) {
-    const auto room = building.room_of[component];
-    return room ? building.scene.rooms[*room].floor_height
-                : building.storeys[building.storey_of[component]].elevation;
-}
-
-const Component* frame_around(const Building& building, std::size_t filling) {
-    for (const Opening& opening : building.openings) {
-        if (opening.filling == filling && opening.frame)
-            return &building.scene.components[*opening.frame];
-    }
-    return nullptr;
-}
-
 }  // namespace
 
 std::string openings_table(const Scene& scene) {
-    const Building building = listed_building(scene);
+    const Building building = describe_building(scene);
     HtmlTable table("Width and height are those of the leaf or the glass.",
                     {{"Element", false},
                      {"What", false},
@@ -88,7 +73,7 @@ std::string openings_table(const Scene& scene) {
 }
 
 std::string handles_table(const Scene& scene) {
-    const Building building = listed_building(scene);
+    const Building building = describe_building(scene);
     HtmlTable table(
         "Where a gripper takes hold, in the room frame. It comes along the approach, with its "
         "fingers as far apart as the grip.",

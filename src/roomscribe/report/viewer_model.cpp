@@ -166,11 +166,7 @@ std::optional<std::size_t> room_by_parents(const Scene& scene, const Component& 
 
 std::string viewer_model_json(const Reconstruction& reconstruction, const GriddedPoints& points,
                               std::size_t num_shown) {
-    Scene listed = reconstruction.scene;
-    listed.components.clear();
-    for (const std::size_t i : listed_components(reconstruction.scene))
-        listed.components.push_back(reconstruction.scene.components[i]);
-    const Building building = describe_building(listed);
+    const Building building = describe_building(reconstruction.scene);
     const PointCloud& cloud = reconstruction.map.cloud;
     const auto per_point = [&](std::size_t size) { return size > 0 && size == cloud.size(); };
 

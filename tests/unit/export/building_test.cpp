@@ -96,6 +96,34 @@ TEST(DescribeBuilding, FindsTheWallOfAnOpeningWithoutParent) {
     EXPECT_TRUE(door.frame);
 }
 
+TEST(DescribeBuilding, LeavesOutWhatIsRejected) {
+    Scene scene = flat_of_two_rooms();
+    for (Component& component : scene.components) {
+        if (component.id == "door-1") component.verdict = Verdict::rejected;
+    }
+    const Building building = describe_building(scene);
+    EXPECT_EQ(building.scene.components.size() + 1, scene.components.size());
+    EXPECT_FALSE(find_component(building.scene, "door-1"));
+    EXPECT_EQ(building.room_of.size(), building.scene.components.size());
+}
+
+TEST(DescribeBuilding, TellsTheFloorBelowAlsoOutsideOfRooms) {
+    Scene scene = transformed_scene(flat_of_two_rooms(), flat_of_two_rooms().room_from_map);
+    for (Room& room : scene.rooms) {
+        room.floor_height += 2.8;
+        room.ceiling_height += 2.8;
+    }
+    Component& lost = scene.components.emplace_back(scene.components.front());
+    lost.id = "lost";
+    lost.parent = "";
+    for (Eigen::Vector3d& corner : lost.polygon)
+        corner += Eigen::Vector3d(100.0, 100.0, 2.8);
+    const Building building = describe_building(scene);
+    const std::size_t last = building.scene.components.size() - 1;
+    ASSERT_FALSE(building.room_of[last]);
+    EXPECT_DOUBLE_EQ(floor_below(building, last), 2.8);
+}
+
 TEST(DescribeBuilding, JoinsWallsSoThatBodiesFillTheCornersOnce) {
     const Building building = describe_building(flat_of_two_rooms());
     // Bodies cover the outer rectangle less the rooms: no gap at a corner, nothing twice.
