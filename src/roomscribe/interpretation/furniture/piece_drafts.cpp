@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "roomscribe/core/disjoint_sets.hpp"
+#include "roomscribe/interpretation/furniture/furnishing_sizes.hpp"
 #include "roomscribe/interpretation/furniture/row_cuts.hpp"
 
 namespace roomscribe {
@@ -17,11 +18,8 @@ constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
 /// m above the floor, see docs/furniture.md: seats 0.40 to 0.52 with cushions; tables from 0.65,
 /// counters to 1.1; a child's table or a low chest between.
 constexpr double min_seat = 0.36;
-constexpr double max_seat = 0.56;
 constexpr double max_low = 0.66;
 constexpr double max_table = 1.2;
-/// m: a chair's seat is at most as wide as an office chair.
-constexpr double max_seat_width = 0.62;
 /// m: handles project 25 to 40 mm, tops overhang as much.
 constexpr double beside = 0.06;
 /// m: a chair's back leans out behind its seat, its castors reach out under it.

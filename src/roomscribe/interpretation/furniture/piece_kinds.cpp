@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "roomscribe/core/quantile.hpp"
+#include "roomscribe/interpretation/furniture/furnishing_sizes.hpp"
 #include "roomscribe/interpretation/furniture/row_cuts.hpp"
 
 namespace roomscribe {
@@ -20,8 +21,6 @@ constexpr double max_hidden_depth = 0.7;
 /// m before the wall: radiators are 5 to 12 cm thick and 3 to 6 off the wall, curtains hang as
 /// near.
 constexpr double max_thin_depth = 0.22;
-/// m above the floor: of chairs and stools with their cushions.
-constexpr double max_seat = 0.56;
 /// m above the floor: what stands shows something lower, unless other things hide it.
 constexpr double max_standing_bottom = 0.5;
 /// m above the floor: wall units begin at 1.35, shelves over a sofa or desk lower.
