@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -24,6 +26,26 @@
 
 namespace roomscribe {
 namespace {
+
+/// Names from the folder on that all files lie in: a report is sent on, and where its sender keeps
+/// the scans is not for everyone. `run.json` has the whole paths.
+std::vector<FileRecord> without_common_folder(std::vector<FileRecord> files) {
+    if (files.empty()) return files;
+    std::filesystem::path common = std::filesystem::path(files.front().path).parent_path();
+    for (const FileRecord& file : files) {
+        const std::filesystem::path folder = std::filesystem::path(file.path).parent_path();
+        const auto differ =
+            std::mismatch(common.begin(), common.end(), folder.begin(), folder.end()).first;
+        std::filesystem::path shared;
+        for (auto part = common.begin(); part != differ; ++part)
+            shared /= *part;
+        common = std::move(shared);
+    }
+    if (common.empty()) return files;
+    for (FileRecord& file : files)
+        file.path = std::filesystem::path(file.path).lexically_relative(common).generic_string();
+    return files;
+}
 
 std::size_t num_listed(const Scene& scene) {
     return static_cast<std::size_t>(std::count_if(
@@ -276,7 +298,7 @@ std::string render_html_report(const Reconstruction& reconstruction, const Repor
     html += section("Derived values", derived_values_table(reconstruction));
     html += section("Settings", settings_part(run));
     html += section("Cost", stages_table(reconstruction));
-    std::vector<FileRecord> files = run.inputs;
+    std::vector<FileRecord> files = without_common_folder(run.inputs);
     files.insert(files.end(), run.results.begin(), run.results.end());
     html += section("Files", files_table(files));
     html +=

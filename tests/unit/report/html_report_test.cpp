@@ -194,6 +194,19 @@ TEST(RenderHtmlReport, EscapesNamesFromFiles) {
     EXPECT_THAT(html, HasSubstr("&lt;script&gt;alert(&#39;1&#39;)&lt;/script&gt;&quot;&amp;"));
 }
 
+TEST(RenderHtmlReport, NamesFilesFromTheFolderOnThatHoldsAllOfThem) {
+    ReportInfo info = small_info();
+    info.run.inputs = {{"/surveys/secret/hall/first.ply", 1, 1},
+                       {"/surveys/secret/second.ply", 1, 2}};
+    info.run.results = {{"scene.json", 1, 3}};
+    const std::string html = render_html_report(small_room(), info);
+    EXPECT_THAT(html, Not(HasSubstr("secret")));
+    for (const char* name : {">hall/first.ply<", ">second.ply<", ">scene.json<"})
+        EXPECT_THAT(html, HasSubstr(name));
+    info.run.inputs = {{"first.ply", 1, 1}, {"/surveys/second.ply", 1, 2}};
+    EXPECT_THAT(render_html_report(small_room(), info), HasSubstr(">/surveys/second.ply<"));
+}
+
 TEST(RenderHtmlReport, ShowsSettingsThatDifferFromTheDefault) {
     ReportInfo info = small_info();
     info.run.settings[0].value = "4711";
