@@ -2,19 +2,64 @@
 #include "roomscribe/core/parallel.hpp"
 
 #include <algorithm>
-#include <atomic>
 
+#if defined(__has_feature)
+#define ROOMSCRIBE_HAS_FEATURE(feature) __has_feature(feature)
+#else
+#define ROOMSCRIBE_HAS_FEATURE(feature) 0
+#endif
+
+#if ROOMSCRIBE_HAS_FEATURE(thread_sanitizer)
+#include <atomic>
+#include <exception>
+#include <mutex>
+#include <thread>
+#else
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
+#endif
 
 namespace roomscribe {
 namespace {
 
-// ThreadSanitizer cannot look into TBB. These tell it what TBB guarantees: a chunk sees what was
-// written before its loop, and what comes after the loop sees what the chunks wrote. They are
-// global since a chunk may touch nothing of its loop before it has passed the first.
-std::atomic<std::size_t> num_begun_loops;
-std::atomic<std::size_t> num_ended_chunks;
+#if ROOMSCRIBE_HAS_FEATURE(thread_sanitizer)
+/// ThreadSanitizer cannot look into TBB and would take all that it does for races: threads of our
+/// own.
+void for_each_chunk(int num_threads, std::size_t num_chunks,
+                    const std::function<void(std::size_t)>& run_chunk) {
+    std::atomic<std::size_t> next = 0;
+    std::mutex mutex;
+    std::exception_ptr thrown;
+    const auto work = [&] {
+        try {
+            for (std::size_t chunk = next++; chunk < num_chunks; chunk = next++)
+                run_chunk(chunk);
+        } catch (...) {
+            next = num_chunks;
+            const std::lock_guard lock(mutex);
+            if (!thrown) thrown = std::current_exception();
+        }
+    };
+    std::vector<std::thread> others;
+    for (int i = 1; i < (num_threads > 0 ? num_threads : 2); ++i)
+        others.emplace_back(work);
+    work();
+    for (std::thread& thread : others)
+        thread.join();
+    if (thrown) std::rethrow_exception(thrown);
+}
+#else
+void for_each_chunk(int num_threads, std::size_t num_chunks,
+                    const std::function<void(std::size_t)>& run_chunk) {
+    const auto run_all = [&] { tbb::parallel_for(std::size_t{0}, num_chunks, run_chunk); };
+    // An arena for each of many short loops costs more than the loops on a busy machine.
+    if (num_threads <= 0) {
+        run_all();
+    } else {
+        tbb::task_arena(num_threads).execute(run_all);
+    }
+}
+#endif
 
 }  // namespace
 
@@ -31,21 +76,7 @@ void parallel_for(const Context& context, std::size_t count, std::size_t chunk_s
             run_chunk(chunk);
         return;
     }
-    const auto run_all = [&] {
-        num_begun_loops.fetch_add(1, std::memory_order_release);
-        tbb::parallel_for(std::size_t{0}, num_chunks, [&](std::size_t chunk) {
-            num_begun_loops.load(std::memory_order_acquire);
-            run_chunk(chunk);
-            num_ended_chunks.fetch_add(1, std::memory_order_release);
-        });
-        num_ended_chunks.load(std::memory_order_acquire);
-    };
-    // An arena for each of many short loops costs more than the loops on a busy machine.
-    if (context.num_threads <= 0) {
-        run_all();
-    } else {
-        tbb::task_arena(context.num_threads).execute(run_all);
-    }
+    for_each_chunk(context.num_threads, num_chunks, run_chunk);
 }
 
 }  // namespace roomscribe
