@@ -66,6 +66,8 @@ void continue_bent_walls(const SurfaceSample& sample, const RoomSurfaces& surfac
     }
     if (wall_of.empty() || sample.cloud.empty()) return;
     VoxelLabels voxels = label_voxels(sample, wall_of, labels);
+    for (std::size_t voxel = 0; voxel < surfaces.is_hung.size(); ++voxel)
+        voxels.is_free[voxel] = voxels.is_free[voxel] && !surfaces.is_hung[voxel];
     const std::vector<Eigen::Vector3f>& positions = sample.cloud.positions;
     const SearchTree tree(positions);
     const NeighborGraph graph(positions, tree, num_neighbors, context);

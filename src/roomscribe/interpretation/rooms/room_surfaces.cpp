@@ -13,6 +13,7 @@
 
 #include "roomscribe/geometry/polygon.hpp"
 #include "roomscribe/interpretation/rooms/floor_plan_drawing.hpp"
+#include "roomscribe/interpretation/rooms/hung_things.hpp"
 #include "roomscribe/interpretation/rooms/level_surfaces.hpp"
 #include "roomscribe/interpretation/rooms/outline.hpp"
 #include "roomscribe/interpretation/rooms/room_outline.hpp"
@@ -348,6 +349,7 @@ RoomSurfaces find_room_surfaces(std::span<const Ray> rays, const SurfaceSample& 
                                 const RoomSurfacesSettings& settings, const Context& context) {
     check_settings(settings);
     RoomSurfaces result;
+    result.is_hung.assign(sample.cloud.size(), false);
     const Eigen::Vector3d up = upright.up();
     std::vector<Storey> storeys =
         find_storeys(sample, patches, up, upright.facing_is_known, settings);
@@ -367,6 +369,7 @@ RoomSurfaces find_room_surfaces(std::span<const Ray> rays, const SurfaceSample& 
                                       surfaces, settings);
         layout.faces = find_wall_faces(rays, sample, patches, surfaces, layout.plan,
                                        upright.room_from_map, settings);
+        mark_hung_things(sample, patches, layout.faces, up, result.is_hung);
         fill_to_walls(layout.plan, layout.faces, upright.room_from_map);
         if (!layout.plan.rooms.empty()) layout.floor_height = layout.plan.rooms[0].floor_height;
         builder.add_storey(storeys[i], layout);
