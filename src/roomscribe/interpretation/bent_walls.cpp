@@ -23,6 +23,11 @@ constexpr int num_neighbors = 8;
 constexpr double max_gap = 2.5;
 constexpr std::int32_t none = -1;
 
+/// Floors do not go on so: what stands on them begins there.
+bool may_bend(Label label) {
+    return label == Label::ceiling || label == Label::wall;
+}
+
 /// Per voxel the wall that most of its labelled points belong to, or `none`; and whether it may
 /// still be given to one: none of its points has a label.
 struct VoxelLabels {
@@ -40,7 +45,7 @@ VoxelLabels label_voxels(const SurfaceSample& sample, const std::vector<std::int
         if (voxel == no_voxel || labels.labels[i] == Label::unknown) continue;
         voxels.is_free[voxel] = false;
         const std::int32_t instance = labels.instances[i];
-        if (labels.labels[i] == Label::wall && instance >= 0 &&
+        if (may_bend(labels.labels[i]) && instance >= 0 &&
             static_cast<std::size_t>(instance) < wall_of.size())
             voxels.wall[voxel] = wall_of[static_cast<std::size_t>(instance)];
     }
@@ -54,13 +59,15 @@ void continue_bent_walls(const SurfaceSample& sample, const RoomSurfaces& surfac
     std::vector<std::int32_t> wall_of;  // by instance
     for (std::size_t s = 0; s < surfaces.surfaces.size(); ++s) {
         const Component& component = surfaces.surfaces[s].component;
-        if (component.label != Label::wall || component.instance < 0) continue;
+        if (component.instance < 0) continue;
         const auto instance = static_cast<std::size_t>(component.instance);
         if (instance >= wall_of.size()) wall_of.resize(instance + 1, none);
         wall_of[instance] = static_cast<std::int32_t>(s);
     }
     if (wall_of.empty() || sample.cloud.empty()) return;
     VoxelLabels voxels = label_voxels(sample, wall_of, labels);
+    for (std::size_t voxel = 0; voxel < surfaces.is_hung.size(); ++voxel)
+        voxels.is_free[voxel] = voxels.is_free[voxel] && !surfaces.is_hung[voxel];
     const std::vector<Eigen::Vector3f>& positions = sample.cloud.positions;
     const SearchTree tree(positions);
     const NeighborGraph graph(positions, tree, num_neighbors, context);
@@ -104,7 +111,7 @@ void continue_bent_walls(const SurfaceSample& sample, const RoomSurfaces& surfac
         if (voxels.wall[voxel] == none) continue;
         const Component& component =
             surfaces.surfaces[static_cast<std::size_t>(voxels.wall[voxel])].component;
-        labels.labels[i] = Label::wall;
+        labels.labels[i] = component.label;
         labels.instances[i] = component.instance;
         labels.confidences[i] = 0.5F * static_cast<float>(component.confidence);
     }

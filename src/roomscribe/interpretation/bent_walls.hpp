@@ -8,8 +8,9 @@
 
 namespace roomscribe {
 
-/// Gives unlabelled points of walls that are not plane to them: fused depth images and tilting
-/// lasers bend walls by several centimetres, and their planes hold no more than a part.
+/// Gives unlabelled points of walls and ceilings that are not plane to them: fused depth images and
+/// tilting lasers bend them by several centimetres, and their planes hold no more than a part.
+/// Floors do not go on so: what stands on them begins there.
 ///
 /// A wall goes on from voxel to voxel of the sample while these have no label, turn from its plane
 /// by less than 20 degrees, and lie no more than a slight slope and the noise deeper or higher than

@@ -355,6 +355,8 @@ PointLabels label_points(const PointCloud& map, const SurfaceSample& sample,
             if (surface < 0) continue;
             const Component& component =
                 surfaces.surfaces[static_cast<std::size_t>(surface)].component;
+            const bool is_hung = !surfaces.is_hung.empty() && surfaces.is_hung[voxel];
+            if (component.label == Label::wall && is_hung) continue;
             result.labels[i] = component.label;
             result.instances[i] = component.instance;
             // At the tolerance, half of the confidence is left.

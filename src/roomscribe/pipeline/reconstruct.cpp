@@ -177,6 +177,7 @@ void interpret_by_default(Reconstruction& reconstruction, const ScanMap& map,
     stages.finish("doors, windows", 0.9);
     reconstruction.labels = label_points(map.cloud, sample, patches, surfaces, openings,
                                          settings.interpretation.labels, context);
+    continue_bent_walls(sample, surfaces, reconstruction.labels, context);
     stages.finish("point labels", 0.95);
     const std::size_t num_before = surfaces.surfaces.size() + openings.components.size();
     Furniture furniture =
@@ -184,7 +185,6 @@ void interpret_by_default(Reconstruction& reconstruction, const ScanMap& map,
                        static_cast<std::int32_t>(num_before), seed_of(settings),
                        settings.interpretation.furniture, context);
     label_furniture(sample, furniture, reconstruction.labels);
-    continue_bent_walls(sample, surfaces, reconstruction.labels, context);
     stages.finish("furniture", 0.97);
     std::vector<MountingFace> faces =
         faces_for_fixtures(sample, patches, surfaces, openings, furniture, num_before);

@@ -9,6 +9,7 @@
 
 #include "roomscribe/core/disjoint_sets.hpp"
 #include "roomscribe/core/quantile.hpp"
+#include "roomscribe/core/units.hpp"
 #include "roomscribe/interpretation/rooms/plan_cell.hpp"
 #include "roomscribe/interpretation/rooms/room_barriers.hpp"
 
@@ -180,14 +181,18 @@ void PlanDrawer::trace_rays() {
         const Vector3d ray = in_room(traced.end) - origin;
         const double length = ray.head<2>().norm();
         // Short of the point by more than its error.
-        const double end = std::min(length - 3.0 * plan_.cell_size(), 2.0 * max_reach);
+        const double passed = length - 3.0 * plan_.cell_size();
+        const double end = std::min(length, 2.0 * max_reach);
         std::size_t last = plan_.num_cells();
         for (double along = 0.0; along < end; along += step) {
             const Vector3d point = origin + (along / length) * ray;
             if (point.z() < floor_ || point.z() > top()) break;
             const auto cell = plan_.cell_at(point.head<2>());
             if (!cell) break;
-            if (*cell != last) ++cells_[*cell].num_rays;
+            if (*cell != last) {
+                cells_[*cell].num_rays += along < passed ? 1 : 0;
+                cells_[*cell].rays_way += (ray.head<2>() / length).cast<float>();
+            }
             last = *cell;
         }
     }
@@ -330,10 +335,13 @@ void PlanDrawer::choose_rooms() {
         int cells = 0;
         int ceiling = 0;
         int floor = 0;
-        int rim = 0;         ///< cells beside others than the room's
+        int level = 0;       ///< floor or ceiling
+        int rim = 0;         ///< cells beside others than the room's, where rays leave it
         int closed_rim = 0;  ///< of these, beside a barrier
         bool holds_scanner = false;
     };
+    // Between where a view ends and where it only passes by.
+    const double min_end_cosine = std::cos(radians(60.0));
     std::vector<Count> counts(plan_.rooms.size());
     for (std::size_t cell = 0; cell < cells_.size(); ++cell) {
         const std::int32_t room = plan_.room_of_cell[cell];
@@ -342,14 +350,22 @@ void PlanDrawer::choose_rooms() {
         ++count.cells;
         count.ceiling += std::isnan(plan_.ceiling_of_cell[cell]) ? 0 : 1;
         count.floor += cells_[cell].has_floor ? 1 : 0;
-        bool is_rim = false;
+        count.level += plan_.has_level[cell] ? 1 : 0;
+        // Of a room that was seen through a door the sides end where the door's jambs hide the
+        // rest; where it was looked into its depth tells what it is.
+        Vector2d outwards = Vector2d::Zero();
         bool is_closed = false;
         plan_.for_each_neighbor(cell, 1, [&](std::size_t other) {
-            is_rim = is_rim || plan_.room_of_cell[other] != room;
+            if (plan_.room_of_cell[other] != room)
+                outwards += plan_.middle_of(other) - plan_.middle_of(cell);
             is_closed = is_closed || plan_.is_barrier[other];
         });
-        count.rim += is_rim ? 1 : 0;
-        count.closed_rim += is_closed ? 1 : 0;
+        const Vector2d way = cells_[cell].rays_way.cast<double>();
+        const bool is_end = rays_.empty()
+                                ? !outwards.isZero()
+                                : outwards.dot(way) > min_end_cosine * outwards.norm() * way.norm();
+        count.rim += is_end ? 1 : 0;
+        count.closed_rim += is_end && is_closed ? 1 : 0;
     }
     for (const Vector3d& sensor : sample_.sensor_positions) {
         const std::int32_t room = plan_.room_at((room_from_map_ * sensor).head<2>());
@@ -358,7 +374,8 @@ void PlanDrawer::choose_rooms() {
     const double cell_area = plan_.cell_size() * plan_.cell_size();
     constexpr double min_level_share = 0.3;
     constexpr double min_floor_share = 0.1;  // under furniture a floor shows as much
-    constexpr double min_closed_share = 0.5;
+    // Outdoors next to nothing ends a view; furniture and other doors leave gaps in a room's walls.
+    constexpr double min_closed_share = 1.0 / 3.0;
     const bool knows_scanners = !sample_.sensor_positions.empty();
     int most_ceiling = 0;
     for (const Count& count : counts)
@@ -370,7 +387,7 @@ void PlanDrawer::choose_rooms() {
                                    count.floor >= min_floor_share * count.cells;
         const bool has_ceiling = count.ceiling >= min_level_share * count.cells && is_over_floor;
         const bool is_walled =
-            count.floor >= min_level_share * count.cells &&
+            count.level >= min_level_share * count.cells &&
             (!knows_scanners || count.closed_rim >= min_closed_share * count.rim);
         return count.holds_scanner || has_ceiling || is_walled;
     };

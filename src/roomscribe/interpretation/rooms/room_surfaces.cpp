@@ -13,6 +13,7 @@
 
 #include "roomscribe/geometry/polygon.hpp"
 #include "roomscribe/interpretation/rooms/floor_plan_drawing.hpp"
+#include "roomscribe/interpretation/rooms/hung_things.hpp"
 #include "roomscribe/interpretation/rooms/level_surfaces.hpp"
 #include "roomscribe/interpretation/rooms/outline.hpp"
 #include "roomscribe/interpretation/rooms/room_outline.hpp"
@@ -28,6 +29,8 @@ namespace {
 constexpr double max_table_area = 2.5;
 /// What stands before a wall hides a floor's rim to this depth: the outline does not follow it.
 constexpr double max_furniture_depth = 1.0;
+/// Of a floor or ceiling. Where less was seen, its tilt is that of noise: it is level then.
+constexpr double min_tilt_coverage = 0.3;
 /// Deviation of an outline, about the spacing of the sample.
 constexpr double outline_tolerance = 0.05;
 
@@ -61,7 +64,8 @@ class SurfaceBuilder {
                                                       const FloorPlan& plan) const;
     void add_level(const LevelPiece& piece, Label label, const Storey& storey,
                    const std::string& parent, const Outline& outline);
-    void add_sloping_ceiling(std::uint32_t patch, const Storey& storey);
+    void add_sloping_ceiling(std::uint32_t patch, const Storey& storey, const FloorPlan& plan,
+                             std::span<const std::string> room_ids);
     void add_wall(const WallFace& face, const Storey& storey, const std::string& parent,
                   std::optional<double> ceiling);
 
@@ -128,12 +132,16 @@ void SurfaceBuilder::add_level(const LevelPiece& piece, Label label, const Store
     const double sign = label == Label::floor ? 1.0 : -1.0;
     const auto fit = moments.fit();
     surface.plane = {sign * up_, sign * piece.height};
-    if (fit && std::abs(fit->plane.normal.dot(up_)) >= std::cos(level_angle)) {
-        surface.plane = fit->plane.normal.dot(sign * up_) < 0.0 ? fit->plane.flipped() : fit->plane;
-    }
     const Outline outline = known_outline.empty()
                                 ? concave_outline(corners, max_furniture_depth, outline_tolerance)
                                 : known_outline;
+    const double area =
+        sample_.spacing * sample_.spacing * static_cast<double>(piece.voxels.size());
+    const double coverage = std::min(1.0, area / std::max(signed_area(outline), 1e-12));
+    if (fit && coverage >= min_tilt_coverage &&
+        std::abs(fit->plane.normal.dot(up_)) >= std::cos(level_angle)) {
+        surface.plane = fit->plane.normal.dot(sign * up_) < 0.0 ? fit->plane.flipped() : fit->plane;
+    }
     Component& component = surface.component;
     for (const Eigen::Vector2d& corner : outline) {
         // Straight up or down onto the plane.
@@ -143,10 +151,8 @@ void SurfaceBuilder::add_level(const LevelPiece& piece, Label label, const Store
             -surface.plane.signed_distance(level_corner) / surface.plane.normal.dot(up_);
         component.polygon.emplace_back(level_corner + height * up_);
     }
-    const double area =
-        sample_.spacing * sample_.spacing * static_cast<double>(piece.voxels.size());
     component.evidence.rms = fit ? fit->rms : 0.0;
-    component.evidence.coverage = std::min(1.0, area / std::max(signed_area(outline), 1e-12));
+    component.evidence.coverage = coverage;
     const bool is_paired = storey.floor && !storey.ceilings.empty();
     component.confidence = is_paired ? 0.95 : 0.75;
     component.verdict = Verdict::accepted;
@@ -164,10 +170,26 @@ void SurfaceBuilder::add_level(const LevelPiece& piece, Label label, const Store
     surfaces_.push_back(std::move(surface));
 }
 
-void SurfaceBuilder::add_sloping_ceiling(std::uint32_t patch, const Storey& storey) {
+/// Of the room that most of it lies over. Outside of all rooms it is a roof or a reflection, if it
+/// is known where the scanners stood; else it may be over what nobody drew, as behind cupboards.
+void SurfaceBuilder::add_sloping_ceiling(std::uint32_t patch, const Storey& storey,
+                                         const FloorPlan& plan,
+                                         std::span<const std::string> room_ids) {
     const PlanarPatch& slope = patches_[patch];
+    std::map<std::int32_t, std::size_t> counts;
+    for (const std::uint32_t voxel : slope.points) {
+        const Eigen::Vector3d place =
+            room_from_map_ * sample_.cloud.positions[voxel].cast<double>();
+        ++counts[plan.room_at(place.head<2>())];
+    }
+    std::int32_t room = no_room;
+    for (const auto& [number, count] : counts) {
+        if (2 * count > slope.points.size()) room = number;
+    }
+    if (room == no_room && !plan.rooms.empty() && !sample_.sensor_positions.empty()) return;
+    const std::string id = room == no_room ? "" : room_ids[static_cast<std::size_t>(room)];
     add_level({slope.centroid.dot(up_), slope.points.size(), slope.points}, Label::ceiling, storey,
-              "", {});
+              id, {});
     RoomSurface& surface = surfaces_.back();
     surface.plane = slope.plane.normal.dot(up_) > 0.0 ? slope.plane.flipped() : slope.plane;
     surface.component.evidence.rule =
@@ -251,7 +273,7 @@ void SurfaceBuilder::add_storey(const Storey& storey, StoreyLayout& layout) {
         rooms_.push_back(std::move(room));
     }
     for (const std::uint32_t patch : storey.sloping_ceilings)
-        add_sloping_ceiling(patch, storey);
+        add_sloping_ceiling(patch, storey, plan, layout.room_ids);
 }
 
 /// Whether next to nothing was seen above a patch, as is so of ceilings under a roof, but not of
@@ -327,6 +349,7 @@ RoomSurfaces find_room_surfaces(std::span<const Ray> rays, const SurfaceSample& 
                                 const RoomSurfacesSettings& settings, const Context& context) {
     check_settings(settings);
     RoomSurfaces result;
+    result.is_hung.assign(sample.cloud.size(), false);
     const Eigen::Vector3d up = upright.up();
     std::vector<Storey> storeys =
         find_storeys(sample, patches, up, upright.facing_is_known, settings);
@@ -346,6 +369,7 @@ RoomSurfaces find_room_surfaces(std::span<const Ray> rays, const SurfaceSample& 
                                       surfaces, settings);
         layout.faces = find_wall_faces(rays, sample, patches, surfaces, layout.plan,
                                        upright.room_from_map, settings);
+        mark_hung_things(sample, patches, layout.faces, up, result.is_hung);
         fill_to_walls(layout.plan, layout.faces, upright.room_from_map);
         if (!layout.plan.rooms.empty()) layout.floor_height = layout.plan.rooms[0].floor_height;
         builder.add_storey(storeys[i], layout);

@@ -42,6 +42,8 @@ struct RoomSurfaces {
     std::vector<RoomSurface> surfaces;  ///< floors, ceilings, walls
     std::vector<Room> rooms;
     std::vector<StoreyLayout> storeys;
+    /// Per voxel of the sample: part of a thing that hangs flat on a wall (mark_hung_things).
+    std::vector<bool> is_hung;
 };
 
 /// Rooms with their floors, ceilings and walls, by the paper's pass-through along z (section 4.3)

@@ -30,6 +30,9 @@ constexpr double min_closing_area = 1.0;
 constexpr double foot_reach = 0.3;
 /// m. Narrower faces are reveals and the sides of posts.
 constexpr double min_face_width = 0.35;
+/// m. Wardrobes, shafts and columns are no deeper: what is narrower is more likely a side of these
+/// than a wall, unless it was seen from floor to ceiling or is a piece of a longer wall.
+constexpr double min_wall_width = 0.7;
 /// m. Leaves and panes lie no deeper in their wall.
 constexpr double max_inset = 0.3;
 /// m. Cupboards are 0.2 to 0.9 m deep, and leave this much of the wall behind them to see.
@@ -403,6 +406,8 @@ std::vector<WallFace> FaceFinder::take() {
     std::stable_sort(walls.begin(), walls.end(), by_area);
     std::vector<WallFace> kept;
     for (const WallFace& face : walls) {
+        const bool is_whole = face.reaches_floor && face.reaches_ceiling;
+        if (face.width() < min_wall_width && !is_whole) continue;
         const bool has_wall = std::any_of(walls.begin(), walls.end(), [&](const WallFace& wall) {
             return belongs_to(face, wall) || is_leaf_of(face, wall);
         });
