@@ -39,6 +39,10 @@ constexpr double max_leaf_width = 1.3;
 constexpr double widest_usual_leaf = 1.11;
 /// m. Thresholds, skirtings and what lies on the floor.
 constexpr double floor_reach = 0.25;
+/// m. DIN 18040 allows thresholds of 2 cm; what is higher, in the plane of the wall, is a sill.
+constexpr double thickest_threshold = 0.05;
+/// Of the rays that met a hole, those that end outdoors: fewer may be stray ones.
+constexpr double min_outdoors = 0.02;
 /// Confidence of a hole like a window's without a sign of glass, until drop_niches().
 constexpr double unglazed = 0.1;
 /// By how much more often than in the wall around it no ray comes back from a hole that is a
@@ -48,6 +52,7 @@ constexpr double pane_lost = 0.25;
 /// m. Panes of doors: above a bottom rail, between stiles.
 constexpr double max_rail = 0.35;
 constexpr double min_glazing_height = 1.3;
+constexpr double min_glazing_width = 0.3;  // each leaf of a narrow double door
 constexpr double usual_rail = 0.12;
 /// m. Outer walls are to 45 cm thick, with plaster and insulation to 60; inner ones 10 to 24.
 constexpr double max_thickness = 0.6;
@@ -288,11 +293,23 @@ std::optional<WallOpening> OpeningFinder::judge(std::size_t storey, std::size_t 
     if (is_guess && evidence.lining < min_lining) return std::nullopt;
     opening.room_behind = room_behind(rooms, face, hole);
     const double above_floor = hole.bottom - rooms.floor_height;
-    const bool is_closed = evidence.opaque >= 0.6 && evidence.at_depth >= 0.6;
+    // What was seen in the hole lies in one plane: a leaf, or the stiles and rails of a glazed one.
+    constexpr double min_frame_share = 0.25;
+    constexpr double min_sill = 0.9;
+    constexpr double min_at_depth = 0.8;
+    const bool is_closed =
+        (evidence.opaque >= 0.6 && evidence.at_depth >= 0.6) ||
+        (evidence.opaque >= min_frame_share && evidence.at_depth >= min_at_depth);
     // Panes that show or swallow what is behind them.
     const bool shows_outdoors = evidence.outdoors >= 0.5;
     const bool is_pane = shows_outdoors || evidence.lost >= pane_lost;
-    if (above_floor <= floor_reach) {
+    // Of a hole that begins so low: wall below it is a sill, or the bottom rail of a glazed leaf.
+    // It is told from a leaf by lying clearly before what was seen in the hole.
+    const bool has_sill =
+        evidence.rim[static_cast<std::size_t>(HoleSide::bottom)].value_or(0.0) >= min_sill &&
+        evidence.depth >= 2.0 * relief.tolerance;
+    const bool is_on_floor = above_floor <= (has_sill ? thickest_threshold : floor_reach);
+    if (is_on_floor) {
         widen_to_hinge(face, hole);
         const double seen_height = hole.top - rooms.floor_height;
         const bool is_lintel_seen =
@@ -303,13 +320,14 @@ std::optional<WallOpening> OpeningFinder::judge(std::size_t storey, std::size_t 
     const bool is_door_size = hole.width() >= min_door_width && hole.width() <= max_door_width &&
                               hole.top - rooms.floor_height >= min_door_height &&
                               hole.top - rooms.floor_height <= max_door_height;
-    if (above_floor <= floor_reach && is_door_size) {
+    if (is_on_floor && is_door_size) {
         const bool is_indoors = opening.room_behind != no_room ||
                                 (!shows_outdoors && is_indoors_behind(rooms, face, hole));
         hole.bottom = rooms.floor_height;
         opening.frame_width = casing_width;
-        const bool is_glazed =
-            evidence.lost >= min_lost || (relief.has_rays && evidence.through_share >= 0.3);
+        const bool is_glazed = evidence.lost >= min_lost ||
+                               (relief.has_rays && evidence.through_share >= 0.3) ||
+                               (shows_outdoors && evidence.opaque <= 1.0 - min_outdoors);
         if (is_closed && (is_indoors || !is_glazed || !is_pane)) {
             opening.rule = "leaf of a door's size in the wall, on the floor";
             opening.depth = evidence.depth;
@@ -346,7 +364,8 @@ std::optional<WallOpening> OpeningFinder::judge(std::size_t storey, std::size_t 
         return opening;
     }
     if (above_floor <= max_rail && hole.height() >= min_glazing_height &&
-        hole.width() <= max_leaf_width && is_indoors_behind(rooms, face, hole)) {
+        hole.width() >= min_glazing_width && hole.width() <= max_leaf_width && !shows_outdoors &&
+        is_indoors_behind(rooms, face, hole)) {
         // The pane of a leaf whose rails lie in the plane of the wall.
         hole = hole.grown(usual_rail, 0.0, usual_rail);
         hole.bottom = rooms.floor_height;
@@ -360,7 +379,7 @@ std::optional<WallOpening> OpeningFinder::judge(std::size_t storey, std::size_t 
     if (hole.width() < min_window_side || hole.height() < min_window_side) return std::nullopt;
     if (above_floor < 0.3 && hole.height() < 1.5) return std::nullopt;
     // A part of a door.
-    if (above_floor <= floor_reach && !is_pane) return std::nullopt;
+    if (is_on_floor && !is_pane) return std::nullopt;
     // Panes let rays pass, or lose them, or lie deeper than the frame; the back of a niche does
     // none of these.
     constexpr double min_sinking = 0.02;
@@ -368,12 +387,16 @@ std::optional<WallOpening> OpeningFinder::judge(std::size_t storey, std::size_t 
                            shows_outdoors || is_guess ||
                            (relief.has_rays && evidence.through_share >= min_through);
     // A mirror shows what lies behind it without a frame in the wall, and as often as not where
-    // another room is.
+    // another room is; but never the ground outdoors, and nothing where no ray passes.
     constexpr double min_framed = 0.25;
-    if ((!is_guess && evidence.framed < min_framed) || is_indoors_behind(rooms, face, hole) ||
-        is_mirror(face, hole)) {
+    const bool may_be_mirror = !shows_outdoors && evidence.through_share >= min_through;
+    if (!is_guess && !shows_outdoors && evidence.framed < min_framed) return std::nullopt;
+    if ((is_guess || may_be_mirror) &&
+        (is_indoors_behind(rooms, face, hole) || is_mirror(face, hole))) {
         return std::nullopt;
     }
+    // A blind lies in one plane.
+    if (!is_glazed && evidence.at_depth < 0.5) return std::nullopt;
     opening.type = OpeningType::window;
     set_depths(opening, evidence);
     opening.frame_width = measure_frame(relief, cells).value_or(usual_window_frame);
