@@ -49,6 +49,8 @@ constexpr double unglazed = 0.1;
 /// window for it alone: panes fill more than half of a French window. Dark or glancing leaves lose
 /// some, too.
 constexpr double pane_lost = 0.25;
+/// m. Casings are no wider than two cells of this.
+constexpr double flat_door_cell = 0.05;
 /// m. Panes of doors: above a bottom rail, between stiles.
 constexpr double max_rail = 0.35;
 constexpr double min_glazing_height = 1.3;
@@ -442,9 +444,10 @@ void OpeningFinder::add_flat_doors(std::size_t storey, std::size_t number, const
         WallOpening opening;
         opening.storey = storey;
         opening.face = number;
-        opening.hole = {relief.start + door.cells.left * cell_size_,
-                        relief.start + door.cells.right * cell_size_, rooms.floor_height,
-                        relief.bottom + door.cells.high * cell_size_};
+        opening.hole = {relief.start + door.cells.left * relief.cell_size,
+                        relief.start + door.cells.right * relief.cell_size, rooms.floor_height,
+                        relief.bottom + door.cells.high * relief.cell_size};
+        if (!door.has_lintel) opening.hole.top = rooms.floor_height + usual_door_height;
         const bool is_known =
             std::any_of(openings.begin(), openings.end(), [&](const WallOpening& known) {
                 return std::min(opening.hole.end, known.hole.end) >
@@ -526,7 +529,14 @@ OpenedWall OpeningFinder::look_at(std::size_t storey, std::size_t number) const 
     const int count = static_cast<int>(std::ceil(seen.width() / cell_size_));
     const WallRelief of_seen =
         columns_of(relief, first, std::min(count, relief.num_columns - first));
-    add_flat_doors(storey, number, of_seen, openings);
+    if (cell_size_ <= flat_door_cell) {
+        add_flat_doors(storey, number, of_seen, openings);
+    } else {
+        add_flat_doors(storey, number,
+                       measure_wall_relief(map_, seen, up_, rooms.floor_height, top,
+                                           std::min(tolerance, 0.06), flat_door_cell),
+                       openings);
+    }
     return {std::move(openings), hidden_share(of_seen)};
 }
 
