@@ -270,6 +270,19 @@ std::vector<OpenLeafSide> OpeningFinder::find_open_leaves(const WallFace& face,
     return sides;
 }
 
+/// Whether leaves can close a hole: one that is as wide, or one at each side.
+bool fill_hole(std::span<const OpenLeafSide> leaves, const WallRectangle& hole) {
+    constexpr double min_share = 0.85;
+    bool is_at_start = false;
+    bool is_at_end = false;
+    for (const OpenLeafSide& leaf : leaves) {
+        if ((leaf.free_edge - leaf.hinge).norm() >= min_share * hole.width()) return true;
+        const bool is_left = leaf.hinge.x() < 0.5 * (hole.start + hole.end);
+        (is_left ? is_at_start : is_at_end) = true;
+    }
+    return hole.width() <= widest_usual_leaf ? !leaves.empty() : is_at_start && is_at_end;
+}
+
 std::optional<WallOpening> OpeningFinder::judge(std::size_t storey, std::size_t number,
                                                 const WallRelief& relief,
                                                 const CellRectangle& cells) const {
@@ -347,6 +360,7 @@ std::optional<WallOpening> OpeningFinder::judge(std::size_t storey, std::size_t 
         }
         const double thickness = thickness_at(rooms, face, hole).value_or(usual_thickness);
         opening.open_leaves = find_open_leaves(face, hole, thickness);
+        if (!fill_hole(opening.open_leaves, hole)) opening.open_leaves.clear();
         opening.is_open = true;
         opening.depth = opening.open_leaves.empty()
                             ? 0.5 * thickness
