@@ -41,6 +41,8 @@ constexpr double widest_usual_leaf = 1.11;
 constexpr double floor_reach = 0.25;
 /// m. DIN 18040 allows thresholds of 2 cm; what is higher, in the plane of the wall, is a sill.
 constexpr double thickest_threshold = 0.05;
+/// m. Sills of windows are higher (0.8, in attics and old houses 0.6).
+constexpr double unseen_reach = 0.6;
 /// Of the rays that met a hole, those that end outdoors: fewer may be stray ones.
 constexpr double min_outdoors = 0.02;
 /// Confidence of a hole like a window's without a sign of glass, until drop_niches().
@@ -297,9 +299,14 @@ std::optional<WallOpening> OpeningFinder::judge(std::size_t storey, std::size_t 
     opening.coverage = evidence.seen;
     opening.hidden = evidence.hidden;
     constexpr double min_seen = 0.4;
+    // A part of a leaf, in one plane, says more than rays that passed.
+    constexpr double min_seen_of_leaf = 0.2;
+    constexpr double min_at_depth = 0.8;
     constexpr double min_lost = 0.08;
     constexpr double min_through = 0.1;
-    if (evidence.seen + evidence.lost < min_seen) return std::nullopt;
+    const bool is_leaf_seen = evidence.opaque >= 0.6 && evidence.at_depth >= min_at_depth &&
+                              evidence.seen >= min_seen_of_leaf;
+    if (evidence.seen + evidence.lost < min_seen && !is_leaf_seen) return std::nullopt;
     const bool stands_on_floor = hole.bottom - rooms.floor_height <= max_rail;
     if (!is_framed_by_wall(evidence, stands_on_floor)) return std::nullopt;
     // Without rays a hole is told from wall that nobody looked at by its lining.
@@ -311,7 +318,6 @@ std::optional<WallOpening> OpeningFinder::judge(std::size_t storey, std::size_t 
     // What was seen in the hole lies in one plane: a leaf, or the stiles and rails of a glazed one.
     constexpr double min_frame_share = 0.25;
     constexpr double min_sill = 0.9;
-    constexpr double min_at_depth = 0.8;
     const bool is_closed =
         (evidence.opaque >= 0.6 && evidence.at_depth >= 0.6) ||
         (evidence.opaque >= min_frame_share && evidence.at_depth >= min_at_depth);
@@ -323,7 +329,12 @@ std::optional<WallOpening> OpeningFinder::judge(std::size_t storey, std::size_t 
     const bool has_sill =
         evidence.rim[static_cast<std::size_t>(HoleSide::bottom)].value_or(0.0) >= min_sill &&
         evidence.depth >= 2.0 * relief.tolerance;
-    const bool is_on_floor = above_floor <= (has_sill ? thickest_threshold : floor_reach);
+    // Scanners whose rays fall by few degrees see nothing closely above the floor.
+    const bool is_bottom_seen =
+        evidence.rim[static_cast<std::size_t>(HoleSide::bottom)].has_value();
+    const bool is_on_floor = has_sill         ? above_floor <= thickest_threshold
+                             : is_bottom_seen ? above_floor <= floor_reach
+                                              : above_floor <= unseen_reach && !is_pane;
     if (is_on_floor) {
         widen_to_hinge(face, hole);
         const double seen_height = hole.top - rooms.floor_height;
@@ -398,9 +409,12 @@ std::optional<WallOpening> OpeningFinder::judge(std::size_t storey, std::size_t 
     if (is_on_floor && !is_pane) return std::nullopt;
     // Panes let rays pass, or lose them, or lie deeper than the frame; the back of a niche does
     // none of these.
+    // Where a niche's sides are seen aslant, they lie at all depths; a frame at one.
     constexpr double min_sinking = 0.02;
-    const bool is_glazed = evidence.lost >= min_lost || evidence.sunk() >= min_sinking ||
-                           shows_outdoors || is_guess ||
+    constexpr double min_rim_at_depth = 0.25;
+    const bool is_sunk =
+        evidence.sunk() >= min_sinking && evidence.depths.rim_at_depth >= min_rim_at_depth;
+    const bool is_glazed = evidence.lost >= min_lost || is_sunk || shows_outdoors || is_guess ||
                            (relief.has_rays && evidence.through_share >= min_through);
     // A mirror shows what lies behind it without a frame in the wall, and as often as not where
     // another room is; but never the ground outdoors, and nothing where no ray passes.
