@@ -2,9 +2,12 @@
 #include "roomscribe/interpretation/openings/flat_doors.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
+
+#include "roomscribe/core/quantile.hpp"
 
 namespace roomscribe {
 namespace {
@@ -28,6 +31,7 @@ class FlatDoorSearch {
                     sum + at(column, row + 1) + at(column + 1, row) - at(column, row);
             }
         }
+        usual_share_ = usual_share();
     }
 
     std::vector<FlatDoor> run() const {
@@ -66,8 +70,10 @@ class FlatDoorSearch {
     static constexpr double max_flat_width = 1.15;
     static constexpr double min_leaf_height = 1.88;
     static constexpr double max_leaf_height = 2.2;
-    /// m. Twice what walls are out of true over 1 m (DIN 18202, table 3, line 7: 3 mm).
+    /// m. Twice what walls are out of true over 1 m and, for each metre more, over 4 m (DIN 18202,
+    /// table 3, line 7: 3 and 8 mm).
     static constexpr double min_step = 0.006;
+    static constexpr double min_step_per_metre = 0.0033;
     /// Standard errors of the difference of two strips; neighbouring cells err alike.
     static constexpr double min_errors = 3.0;
     static constexpr double correlated_cells = 8.0;
@@ -104,62 +110,113 @@ class FlatDoorSearch {
                          (static_cast<std::size_t>(relief_.num_columns) + 1) +
                      static_cast<std::size_t>(column)];
     }
-    /// Of columns [left, right) and rows [low, high), if more than half of it was seen.
+    Sum sum_of(int left, int right, int low, int high) const {
+        return at(right, high) - at(left, high) - at(right, low) + at(left, low);
+    }
+    /// Share of the cells of a column that rays were aimed at, up to a door's height, where they
+    /// are most: the lines of some scanners are far apart.
+    double usual_share() const {
+        const int high = std::min(cells(min_leaf_height), relief_.num_rows);
+        std::vector<double> shares;
+        for (int column = 0; column < relief_.num_columns; ++column) {
+            int aimed_at = 0;
+            for (int row = 0; row < high; ++row) {
+                const ReliefCell& cell = relief_.at(column, row);
+                aimed_at += cell.near + cell.surface + cell.open() + cell.hidden > 0 ? 1 : 0;
+            }
+            shares.push_back(static_cast<double>(aimed_at) / high);
+        }
+        return quantile(shares, 0.75);
+    }
+    /// Of columns [left, right) and rows [low, high), if more than half as much of it was seen as
+    /// is usual.
     std::optional<Sum> strip(int left, int right, int low, int high) const {
         if (left < 0 || low < 0 || right > relief_.num_columns || high > relief_.num_rows)
             return std::nullopt;
-        const Sum sum = at(right, high) - at(left, high) - at(right, low) + at(left, low);
-        if (sum.count < 0.5 * (right - left) * (high - low) || sum.count < 4.0) return std::nullopt;
+        if (right <= left || high <= low) return std::nullopt;
+        const Sum sum = sum_of(left, right, low, high);
+        const double usual = usual_share_ * (right - left) * (high - low);
+        if (sum.count < 0.5 * usual || sum.count < 4.0) return std::nullopt;
         return sum;
     }
     /// How much the first strip lies before the second, in the least step that counts.
-    static double step(const Sum& a, const Sum& b) {
+    static double step(const Sum& a, const Sum& b, double least) {
         const double error = std::sqrt(a.variance_of_mean() + b.variance_of_mean());
-        return (a.mean() - b.mean()) / std::max(min_step, min_errors * error);
+        return (a.mean() - b.mean()) / std::max(least, min_errors * error);
     }
 
-    std::optional<FlatDoor> look_at(const CellRectangle& door) const {
+    /// The strips along one edge of a leaf, from within outwards.
+    struct Side {
+        std::optional<Sum> leaf, casing, wall;
+    };
+
+    /// Of a leaf: left, right, above.
+    std::array<Side, 3> sides_of(const CellRectangle& door) const {
         const int gap = 1;  // cells half on either side
         const int casing = cells(0.1);
         const int inner = cells(0.2);
         const int outer = cells(0.15);
         const int low = cells(0.15);  // above skirtings
-        struct Side {
-            std::optional<Sum> leaf, casing, wall;
-        };
-        const Side sides[3] = {
-            {strip(door.left + gap, door.left + gap + inner, low, door.high),
-             strip(door.left - casing + gap, door.left, low, door.high),
-             strip(door.left - casing - outer, door.left - casing, low, door.high)},
-            {strip(door.right - gap - inner, door.right - gap, low, door.high),
-             strip(door.right, door.right + casing - gap, low, door.high),
-             strip(door.right + casing, door.right + casing + outer, low, door.high)},
-            {strip(door.left, door.right, door.high - gap - inner, door.high - gap),
-             strip(door.left, door.right, door.high, door.high + casing - gap),
-             strip(door.left, door.right, door.high + casing, door.high + casing + outer)}};
-        const auto leaf = strip(door.left + gap, door.right - gap, low, door.high - gap);
+        // Beside a corner there is less wall.
+        const int left = std::max(0, door.left - casing - outer);
+        const int right = std::min(relief_.num_columns, door.right + casing + outer);
+        return {Side{strip(door.left + gap, door.left + gap + inner, low, door.high),
+                     strip(door.left - casing + gap, door.left, low, door.high),
+                     strip(left, door.left - casing, low, door.high)},
+                Side{strip(door.right - gap - inner, door.right - gap, low, door.high),
+                     strip(door.right, door.right + casing - gap, low, door.high),
+                     strip(door.right + casing, right, low, door.high)},
+                Side{strip(door.left, door.right, door.high - gap - inner, door.high - gap),
+                     strip(door.left, door.right, door.high, door.high + casing - gap),
+                     strip(door.left, door.right, door.high + casing, door.high + casing + outer)}};
+    }
+
+    /// Nothing but a few cells was seen above.
+    bool is_top_unseen(const CellRectangle& door) const {
+        const int high = std::min(relief_.num_rows, door.high + cells(0.25));
+        if (high <= door.high) return true;
+        return sum_of(door.left, door.right, door.high, high).count <
+               0.1 * usual_share_ * (door.right - door.left) * (high - door.high);
+    }
+
+    std::optional<FlatDoor> look_at(const CellRectangle& door) const {
+        const int gap = 1;
+        const auto leaf = strip(door.left + gap, door.right - gap, cells(0.15), door.high - gap);
         if (!leaf) return std::nullopt;
+        const std::array<Side, 3> sides = sides_of(door);
+        const double width = (door.right - door.left) * relief_.cell_size;
+        const double least = min_step + min_step_per_metre * std::max(0.0, width - 1.0);
+        // A scanner that cannot look up sees no lintel; of one that shows in part, casings on both
+        // sides make up for it.
+        const bool is_top_seen = sides[2].leaf && sides[2].wall;
+        const std::size_t num_sides = is_top_seen ? 3 : 2;
         double lower = std::numeric_limits<double>::infinity();
         double cased = lower;
         double height = 0.0;
-        for (const Side& side : sides) {
-            if (!side.leaf) return std::nullopt;
-            if (!side.wall) return std::nullopt;
+        for (std::size_t i = 0; i < num_sides; ++i) {
+            const Side& side = sides[i];
+            if (!side.leaf || !side.wall) return std::nullopt;
+            // What stands before what is beside it is wall between two doors.
+            if (side.leaf->mean() - side.wall->mean() >= 0.5 * min_step) return std::nullopt;
             const double depth = side.wall->mean() - side.leaf->mean();
             const bool is_flat = std::abs(side.leaf->mean() - leaf->mean()) <= max_bend * depth;
-            lower = std::min(lower, is_flat ? -step(*side.leaf, *side.wall) : 0.0);
-            height -= depth;
-            cased = std::min(cased, side.casing ? std::min(step(*side.casing, *side.wall),
-                                                           step(*side.casing, *side.leaf))
+            lower = std::min(lower, is_flat ? -step(*side.leaf, *side.wall, least) : 0.0);
+            height -= depth / static_cast<double>(num_sides);
+            cased = std::min(cased, side.casing ? std::min(step(*side.casing, *side.wall, min_step),
+                                                           step(*side.casing, *side.leaf, min_step))
                                                 : 0.0);
         }
-        const double contrast = std::max(lower, cased);
+        // Two leaves side by side are told by the casing around them: wide pieces of wall between
+        // others lie deeper as well.
+        const bool needs_casing = width > max_flat_width || (!is_top_seen && !is_top_unseen(door));
+        const double contrast = needs_casing ? cased : std::max(lower, cased);
         if (contrast < 1.0) return std::nullopt;
-        return FlatDoor{door, height / 3.0, contrast};
+        return FlatDoor{door, height, contrast, num_sides == 3};
     }
 
     const WallRelief& relief_;
     std::vector<Sum> sums_;
+    double usual_share_ = 1.0;
 };
 
 }  // namespace

@@ -10,8 +10,9 @@ namespace roomscribe {
 /// A leaf that lies nearly in the plane of its wall.
 struct FlatDoor {
     CellRectangle cells;
-    double height = 0.0;    ///< m, of the leaf before the wall beside it
-    double contrast = 0.0;  ///< in the least difference that counts
+    double height = 0.0;     ///< m, of the leaf before the wall beside it
+    double contrast = 0.0;   ///< in the least difference that counts
+    bool has_lintel = true;  ///< wall was seen above it
 };
 
 /// Closed leaves nearly in the plane of their wall: rectangles of a door's size, on the floor, that

@@ -80,6 +80,7 @@ class HoleFinder {
                 heaviest_rectangle(weights_of(group), relief_.num_columns, relief_.num_rows);
             if (hole.sum >= min_cells()) holes.push_back(hole);
         }
+        join_parts(holes);
         return holes;
     }
 
@@ -149,6 +150,43 @@ class HoleFinder {
             }
             ++num_groups_;
         }
+    }
+
+    /// What stands before a hole, or lies in it, parts it: holes one over the other, as wide, with
+    /// no wall between them are one.
+    void join_parts(std::vector<CellRectangle>& holes) const {
+        const int most_apart = std::max(2, static_cast<int>(0.5 / relief_.cell_size));
+        for (std::size_t i = 0; i < holes.size(); ++i) {
+            for (std::size_t j = 0; j < holes.size();) {
+                if (j == i || !are_parts(holes[i], holes[j], most_apart)) {
+                    ++j;
+                    continue;
+                }
+                holes[i].left = std::min(holes[i].left, holes[j].left);
+                holes[i].right = std::max(holes[i].right, holes[j].right);
+                holes[i].high = holes[j].high;
+                holes[i].sum += holes[j].sum;
+                holes.erase(holes.begin() + static_cast<std::ptrdiff_t>(j));
+                if (j < i) --i;
+                j = 0;
+            }
+        }
+    }
+
+    bool are_parts(const CellRectangle& lower, const CellRectangle& upper, int most_apart) const {
+        if (upper.low < lower.high || upper.low - lower.high > most_apart) return false;
+        // A cell on either side may be lost to the edge.
+        if (std::abs(lower.left - upper.left) > 1 || std::abs(lower.right - upper.right) > 1)
+            return false;
+        int wall = 0;
+        int cells = 0;
+        for (int row = lower.high; row < upper.low; ++row) {
+            for (int column = lower.left; column < lower.right; ++column) {
+                wall += is_wall(relief_.at(column, row)) ? 1 : 0;
+                ++cells;
+            }
+        }
+        return 4 * wall <= cells;
     }
 
     std::vector<float> weights_of(std::int32_t group) const {
@@ -225,7 +263,15 @@ HoleDepths measure_depths(const WallRelief& relief, const CellRectangle& hole) {
         }
     }
     HoleDepths depths;
-    if (!rim.empty()) depths.rim = median(rim);
+    if (!rim.empty()) {
+        depths.rim = median(rim);
+        constexpr double reach = 2.0 * depth_bin;  // noise, and a sash that is not in one plane
+        depths.rim_at_depth =
+            static_cast<double>(std::count_if(
+                rim.begin(), rim.end(),
+                [&](double depth) { return std::abs(depth - *depths.rim) <= reach + 1e-9; })) /
+            static_cast<double>(rim.size());
+    }
     if (!middle.empty()) depths.middle = median(middle);
     return depths;
 }

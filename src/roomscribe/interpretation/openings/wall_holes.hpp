@@ -28,6 +28,7 @@ enum class HoleSide : std::uint8_t { left, right, bottom, top };
 struct HoleDepths {
     std::optional<double> rim;
     std::optional<double> middle;
+    double rim_at_depth = 0.0;  ///< share of the cells along the sides that lie near there
 };
 
 /// What the cells of a hole tell.

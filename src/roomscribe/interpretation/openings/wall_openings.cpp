@@ -39,15 +39,24 @@ constexpr double max_leaf_width = 1.3;
 constexpr double widest_usual_leaf = 1.11;
 /// m. Thresholds, skirtings and what lies on the floor.
 constexpr double floor_reach = 0.25;
+/// m. DIN 18040 allows thresholds of 2 cm; what is higher, in the plane of the wall, is a sill.
+constexpr double thickest_threshold = 0.05;
+/// m. Sills of windows are higher (0.8, in attics and old houses 0.6).
+constexpr double unseen_reach = 0.6;
+/// Of the rays that met a hole, those that end outdoors: fewer may be stray ones.
+constexpr double min_outdoors = 0.02;
 /// Confidence of a hole like a window's without a sign of glass, until drop_niches().
 constexpr double unglazed = 0.1;
 /// By how much more often than in the wall around it no ray comes back from a hole that is a
 /// window for it alone: panes fill more than half of a French window. Dark or glancing leaves lose
 /// some, too.
 constexpr double pane_lost = 0.25;
+/// m. Casings are no wider than two cells of this.
+constexpr double flat_door_cell = 0.05;
 /// m. Panes of doors: above a bottom rail, between stiles.
 constexpr double max_rail = 0.35;
 constexpr double min_glazing_height = 1.3;
+constexpr double min_glazing_width = 0.3;  // each leaf of a narrow double door
 constexpr double usual_rail = 0.12;
 /// m. Outer walls are to 45 cm thick, with plaster and insulation to 60; inner ones 10 to 24.
 constexpr double max_thickness = 0.6;
@@ -263,6 +272,19 @@ std::vector<OpenLeafSide> OpeningFinder::find_open_leaves(const WallFace& face,
     return sides;
 }
 
+/// Whether leaves can close a hole: one that is as wide, or one at each side.
+bool fill_hole(std::span<const OpenLeafSide> leaves, const WallRectangle& hole) {
+    constexpr double min_share = 0.85;
+    bool is_at_start = false;
+    bool is_at_end = false;
+    for (const OpenLeafSide& leaf : leaves) {
+        if ((leaf.free_edge - leaf.hinge).norm() >= min_share * hole.width()) return true;
+        const bool is_left = leaf.hinge.x() < 0.5 * (hole.start + hole.end);
+        (is_left ? is_at_start : is_at_end) = true;
+    }
+    return hole.width() <= widest_usual_leaf ? !leaves.empty() : is_at_start && is_at_end;
+}
+
 std::optional<WallOpening> OpeningFinder::judge(std::size_t storey, std::size_t number,
                                                 const WallRelief& relief,
                                                 const CellRectangle& cells) const {
@@ -277,9 +299,14 @@ std::optional<WallOpening> OpeningFinder::judge(std::size_t storey, std::size_t 
     opening.coverage = evidence.seen;
     opening.hidden = evidence.hidden;
     constexpr double min_seen = 0.4;
+    // A part of a leaf, in one plane, says more than rays that passed.
+    constexpr double min_seen_of_leaf = 0.2;
+    constexpr double min_at_depth = 0.8;
     constexpr double min_lost = 0.08;
     constexpr double min_through = 0.1;
-    if (evidence.seen + evidence.lost < min_seen) return std::nullopt;
+    const bool is_leaf_seen = evidence.opaque >= 0.6 && evidence.at_depth >= min_at_depth &&
+                              evidence.seen >= min_seen_of_leaf;
+    if (evidence.seen + evidence.lost < min_seen && !is_leaf_seen) return std::nullopt;
     const bool stands_on_floor = hole.bottom - rooms.floor_height <= max_rail;
     if (!is_framed_by_wall(evidence, stands_on_floor)) return std::nullopt;
     // Without rays a hole is told from wall that nobody looked at by its lining.
@@ -288,11 +315,27 @@ std::optional<WallOpening> OpeningFinder::judge(std::size_t storey, std::size_t 
     if (is_guess && evidence.lining < min_lining) return std::nullopt;
     opening.room_behind = room_behind(rooms, face, hole);
     const double above_floor = hole.bottom - rooms.floor_height;
-    const bool is_closed = evidence.opaque >= 0.6 && evidence.at_depth >= 0.6;
+    // What was seen in the hole lies in one plane: a leaf, or the stiles and rails of a glazed one.
+    constexpr double min_frame_share = 0.25;
+    constexpr double min_sill = 0.9;
+    const bool is_closed =
+        (evidence.opaque >= 0.6 && evidence.at_depth >= 0.6) ||
+        (evidence.opaque >= min_frame_share && evidence.at_depth >= min_at_depth);
     // Panes that show or swallow what is behind them.
     const bool shows_outdoors = evidence.outdoors >= 0.5;
     const bool is_pane = shows_outdoors || evidence.lost >= pane_lost;
-    if (above_floor <= floor_reach) {
+    // Of a hole that begins so low: wall below it is a sill, or the bottom rail of a glazed leaf.
+    // It is told from a leaf by lying clearly before what was seen in the hole.
+    const bool has_sill =
+        evidence.rim[static_cast<std::size_t>(HoleSide::bottom)].value_or(0.0) >= min_sill &&
+        evidence.depth >= 2.0 * relief.tolerance;
+    // Scanners whose rays fall by few degrees see nothing closely above the floor.
+    const bool is_bottom_seen =
+        evidence.rim[static_cast<std::size_t>(HoleSide::bottom)].has_value();
+    const bool is_on_floor = has_sill         ? above_floor <= thickest_threshold
+                             : is_bottom_seen ? above_floor <= floor_reach
+                                              : above_floor <= unseen_reach && !is_pane;
+    if (is_on_floor) {
         widen_to_hinge(face, hole);
         const double seen_height = hole.top - rooms.floor_height;
         const bool is_lintel_seen =
@@ -303,13 +346,14 @@ std::optional<WallOpening> OpeningFinder::judge(std::size_t storey, std::size_t 
     const bool is_door_size = hole.width() >= min_door_width && hole.width() <= max_door_width &&
                               hole.top - rooms.floor_height >= min_door_height &&
                               hole.top - rooms.floor_height <= max_door_height;
-    if (above_floor <= floor_reach && is_door_size) {
+    if (is_on_floor && is_door_size) {
         const bool is_indoors = opening.room_behind != no_room ||
                                 (!shows_outdoors && is_indoors_behind(rooms, face, hole));
         hole.bottom = rooms.floor_height;
         opening.frame_width = casing_width;
-        const bool is_glazed =
-            evidence.lost >= min_lost || (relief.has_rays && evidence.through_share >= 0.3);
+        const bool is_glazed = evidence.lost >= min_lost ||
+                               (relief.has_rays && evidence.through_share >= 0.3) ||
+                               (shows_outdoors && evidence.opaque <= 1.0 - min_outdoors);
         if (is_closed && (is_indoors || !is_glazed || !is_pane)) {
             opening.rule = "leaf of a door's size in the wall, on the floor";
             opening.depth = evidence.depth;
@@ -327,6 +371,7 @@ std::optional<WallOpening> OpeningFinder::judge(std::size_t storey, std::size_t 
         }
         const double thickness = thickness_at(rooms, face, hole).value_or(usual_thickness);
         opening.open_leaves = find_open_leaves(face, hole, thickness);
+        if (!fill_hole(opening.open_leaves, hole)) opening.open_leaves.clear();
         opening.is_open = true;
         opening.depth = opening.open_leaves.empty()
                             ? 0.5 * thickness
@@ -346,7 +391,8 @@ std::optional<WallOpening> OpeningFinder::judge(std::size_t storey, std::size_t 
         return opening;
     }
     if (above_floor <= max_rail && hole.height() >= min_glazing_height &&
-        hole.width() <= max_leaf_width && is_indoors_behind(rooms, face, hole)) {
+        hole.width() >= min_glazing_width && hole.width() <= max_leaf_width && !shows_outdoors &&
+        is_indoors_behind(rooms, face, hole)) {
         // The pane of a leaf whose rails lie in the plane of the wall.
         hole = hole.grown(usual_rail, 0.0, usual_rail);
         hole.bottom = rooms.floor_height;
@@ -360,20 +406,27 @@ std::optional<WallOpening> OpeningFinder::judge(std::size_t storey, std::size_t 
     if (hole.width() < min_window_side || hole.height() < min_window_side) return std::nullopt;
     if (above_floor < 0.3 && hole.height() < 1.5) return std::nullopt;
     // A part of a door.
-    if (above_floor <= floor_reach && !is_pane) return std::nullopt;
+    if (is_on_floor && !is_pane) return std::nullopt;
     // Panes let rays pass, or lose them, or lie deeper than the frame; the back of a niche does
     // none of these.
+    // Where a niche's sides are seen aslant, they lie at all depths; a frame at one.
     constexpr double min_sinking = 0.02;
-    const bool is_glazed = evidence.lost >= min_lost || evidence.sunk() >= min_sinking ||
-                           shows_outdoors || is_guess ||
+    constexpr double min_rim_at_depth = 0.25;
+    const bool is_sunk =
+        evidence.sunk() >= min_sinking && evidence.depths.rim_at_depth >= min_rim_at_depth;
+    const bool is_glazed = evidence.lost >= min_lost || is_sunk || shows_outdoors || is_guess ||
                            (relief.has_rays && evidence.through_share >= min_through);
     // A mirror shows what lies behind it without a frame in the wall, and as often as not where
-    // another room is.
+    // another room is; but never the ground outdoors, and nothing where no ray passes.
     constexpr double min_framed = 0.25;
-    if ((!is_guess && evidence.framed < min_framed) || is_indoors_behind(rooms, face, hole) ||
-        is_mirror(face, hole)) {
+    const bool may_be_mirror = !shows_outdoors && evidence.through_share >= min_through;
+    if (!is_guess && !shows_outdoors && evidence.framed < min_framed) return std::nullopt;
+    if ((is_guess || may_be_mirror) &&
+        (is_indoors_behind(rooms, face, hole) || is_mirror(face, hole))) {
         return std::nullopt;
     }
+    // A blind lies in one plane.
+    if (!is_glazed && evidence.at_depth < 0.5) return std::nullopt;
     opening.type = OpeningType::window;
     set_depths(opening, evidence);
     opening.frame_width = measure_frame(relief, cells).value_or(usual_window_frame);
@@ -419,9 +472,10 @@ void OpeningFinder::add_flat_doors(std::size_t storey, std::size_t number, const
         WallOpening opening;
         opening.storey = storey;
         opening.face = number;
-        opening.hole = {relief.start + door.cells.left * cell_size_,
-                        relief.start + door.cells.right * cell_size_, rooms.floor_height,
-                        relief.bottom + door.cells.high * cell_size_};
+        opening.hole = {relief.start + door.cells.left * relief.cell_size,
+                        relief.start + door.cells.right * relief.cell_size, rooms.floor_height,
+                        relief.bottom + door.cells.high * relief.cell_size};
+        if (!door.has_lintel) opening.hole.top = rooms.floor_height + usual_door_height;
         const bool is_known =
             std::any_of(openings.begin(), openings.end(), [&](const WallOpening& known) {
                 return std::min(opening.hole.end, known.hole.end) >
@@ -503,7 +557,14 @@ OpenedWall OpeningFinder::look_at(std::size_t storey, std::size_t number) const 
     const int count = static_cast<int>(std::ceil(seen.width() / cell_size_));
     const WallRelief of_seen =
         columns_of(relief, first, std::min(count, relief.num_columns - first));
-    add_flat_doors(storey, number, of_seen, openings);
+    if (cell_size_ <= flat_door_cell) {
+        add_flat_doors(storey, number, of_seen, openings);
+    } else {
+        add_flat_doors(storey, number,
+                       measure_wall_relief(map_, seen, up_, rooms.floor_height, top,
+                                           std::min(tolerance, 0.06), flat_door_cell),
+                       openings);
+    }
     return {std::move(openings), hidden_share(of_seen)};
 }
 

@@ -41,6 +41,8 @@ struct WallOpening {
     double depth = 0.0;        ///< m behind the face, of the leaf or the pane
     double frame_depth = 0.0;  ///< m behind the face, of a window's frame and mullions
     double frame_width = 0.0;  ///< m; around a leaf, within a window's hole; 0 for none
+    int num_casings = 0;       ///< sides along which a casing stands before the wall
+    int num_plain_sides = 0;   ///< sides that were seen as well, without one
     bool is_open = false;      ///< a door that stands open
     bool is_pane = false;      ///< a door of which one pane was told
     std::vector<OpenLeafSide> open_leaves;  ///< of an open door
