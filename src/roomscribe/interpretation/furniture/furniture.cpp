@@ -81,9 +81,6 @@ void add_backs(const FurnitureVoxels& all, const RoomSurfaces& surfaces,
     }
 }
 
-/// A piece that is more likely none, or another's part, is not listed.
-constexpr double min_confidence = 0.5;
-
 /// Makes the components of pieces and their faces.
 class FurnitureBuilder {
   public:
@@ -107,7 +104,7 @@ class FurnitureBuilder {
             if (!verdict.kind.empty()) add_thing(draft, form, verdict, result);
             return;
         }
-        if (verdict.confidence < min_confidence) {
+        if (verdict.confidence < min_piece_confidence) {
             for (const std::uint32_t i : draft.voxels)
                 result.component_of_voxel[all_.voxels[i].voxel] = unnamed_furniture;
             return;
@@ -386,7 +383,7 @@ void label_furniture(const SurfaceSample& sample, const Furniture& furniture, Po
         const std::int32_t number = furniture.component_of_voxel[voxel];
         if (number == unnamed_furniture) {
             labels.labels[i] = Label::furniture;
-            labels.confidences[i] = static_cast<float>(min_confidence);
+            labels.confidences[i] = static_cast<float>(min_piece_confidence);
         }
         if (number < 0) continue;
         const Component& component = furniture.components[static_cast<std::size_t>(number)];

@@ -5,19 +5,77 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <optional>
-
-#include "roomscribe/core/quantile.hpp"
-#include "roomscribe/interpretation/furniture/furnishing_sizes.hpp"
-#include "roomscribe/interpretation/furniture/row_cuts.hpp"
+#include <span>
 
 namespace roomscribe {
 namespace {
 
-/// m: pieces stand 16 to 35 mm off the wall for its skirting board, and voxels are 4 cm.
-constexpr double wall_reach = 0.12;
-/// m: no cabinet is deeper.
-constexpr double max_hidden_depth = 0.7;
+struct Range {
+    double low;
+    double high;
+    bool holds(double value) const { return value >= low && value <= high; }
+    /// How far outside a value lies, in spreads: rims, noise and things beside make pieces look
+    /// larger by a voxel or two, while what is smaller than half a voxel less is a part of one.
+    double miss(double value) const {
+        constexpr double below = 0.02;
+        constexpr double above = 0.05;
+        return std::max({(low - value) / below, (value - high) / above, 0.0});
+    }
+};
+
+constexpr Range any{0.0, std::numeric_limits<double>::infinity()};
+
+/// Share of the sides below a level that are closed: more or less than most of one side.
+constexpr Range open{0.0, 0.7};
+constexpr Range closed{0.7, 1.0};
+
+/// How large a kind is, in m, with the usual spread (docs/furniture.md has the sources).
+struct KindSizes {
+    std::string_view kind;
+    Range level;  ///< above the floor: seat, mattress or top; of what is taller, its upper end
+    Range rise;   ///< from there to the upper end: backs and headboards, not what stands on tops
+    Range length;
+    Range width;
+    Range below;        ///< open or closed
+    bool is_at_wall;    ///< what has its size in the middle of a room is a carton
+    double confidence;  ///< of what fits well
+};
+
+/// Pieces of which a seat, mattress or top was seen.
+constexpr std::array<KindSizes, 16> sizes_by_level{{
+    {"stool", {0.36, 0.56}, {0.00, 0.12}, {0.28, 0.48}, {0.28, 0.48}, open, false, 0.75},
+    {"chair", {0.36, 0.56}, {0.14, 0.80}, {0.30, 0.60}, {0.20, 0.60}, any, false, 0.85},
+    {"office_chair", {0.36, 0.56}, {0.14, 0.80}, {0.60, 1.10}, {0.35, 0.75}, any, false, 0.80},
+    {"armchair", {0.30, 0.56}, {0.10, 0.75}, {0.65, 1.15}, {0.65, 1.15}, any, false, 0.75},
+    {"sofa", {0.30, 0.60}, {0.10, 0.75}, {1.20, 2.70}, {0.65, 1.15}, any, false, 0.80},
+    {"bed", {0.36, 0.70}, {0.00, 0.70}, {1.75, 2.40}, {0.80, 2.20}, any, false, 0.80},
+    {"bench", {0.36, 0.56}, {0.00, 0.12}, {0.80, 2.40}, {0.28, 0.50}, open, false, 0.70},
+    {"coffee_table", {0.34, 0.56}, {0.00, 0.35}, {0.50, 1.60}, {0.40, 1.20}, open, false, 0.70},
+    {"tv_unit", {0.30, 0.66}, any, {0.90, 2.80}, {0.28, 0.65}, any, true, 0.70},
+    {"nightstand", {0.45, 0.66}, any, {0.30, 0.65}, {0.30, 0.60}, closed, true, 0.70},
+    {"desk", {0.66, 0.85}, any, {1.00, 2.10}, {0.50, 0.85}, open, false, 0.85},
+    {"table", {0.66, 0.85}, any, {0.60, 3.70}, {0.50, 1.60}, any, false, 0.80},
+    {"counter", {0.85, 1.20}, any, {1.00, 6.00}, {0.40, 1.20}, open, false, 0.70},
+    {"drawer_unit", {0.50, 1.20}, any, {0.40, 0.70}, {0.40, 0.80}, closed, false, 0.80},
+    {"base_unit", {0.82, 0.98}, any, {1.80, 6.00}, {0.50, 0.80}, closed, false, 0.85},
+    {"cabinet", {0.66, 1.25}, any, {0.40, 3.00}, {0.25, 0.80}, closed, false, 0.84},
+}};
+
+/// Boxes whose top was not seen, by their front's upper end: higher than radiators (0.7).
+constexpr std::array<KindSizes, 3> sizes_by_front{{
+    {"drawer_unit", {0.70, 1.20}, any, {0.40, 0.65}, {0.35, 0.80}, any, false, 0.65},
+    {"cabinet", {0.70, 1.25}, any, {0.65, 3.00}, {0.35, 0.80}, any, false, 0.65},
+    {"base_unit", {0.75, 1.00}, any, {1.20, 5.00}, {0.50, 0.80}, any, false, 0.66},
+}};
+
+/// Boxes that are taller than a table, chair or chest.
+constexpr std::array<KindSizes, 4> sizes_of_tall{{
+    {"shelf", {1.25, 2.70}, any, {0.38, 3.20}, {0.15, 0.50}, open, false, 0.80},
+    {"fridge", {1.25, 2.10}, any, {0.50, 0.75}, {0.45, 0.75}, closed, false, 0.76},
+    {"wardrobe", {1.25, 2.70}, any, {0.50, 4.00}, {0.50, 0.85}, closed, false, 0.75},
+    {"cabinet", {1.25, 2.70}, any, {0.38, 4.00}, {0.20, 0.50}, closed, false, 0.75},
+}};
+
 /// m before the wall: radiators are 5 to 12 cm thick and 3 to 6 off the wall, curtains hang as
 /// near.
 constexpr double max_thin_depth = 0.22;
@@ -25,350 +83,157 @@ constexpr double max_thin_depth = 0.22;
 constexpr double max_standing_bottom = 0.5;
 /// m above the floor: wall units begin at 1.35, shelves over a sofa or desk lower.
 constexpr double min_hanging_bottom = 0.9;
+/// m above the floor: what is taller is no table, chair or chest.
+constexpr double min_tall = 1.25;
+/// m2, of the front of a small chest (0.42 x 0.5).
+constexpr double min_face = 0.2;
+/// m: of a box before a wall, from the wall to its front.
+constexpr Range box_depth{0.35, 0.8};
 
-/// Share of a side that upright surface closes, of the one that is closed most: the others may not
-/// have been seen. Legs stand at corners and rungs run low, so a side counts in columns, which are
-/// closed if most of their height is.
-double closed_share(const FurnitureVoxels& all, const PieceDraft& draft,
-                    const PlanRectangle& rectangle, double below) {
-    // m: worktops overhang by 20 to 40 mm, plinths are set back 50; of a stool it is no leg's
-    // place.
-    const double rim = std::min(0.12, 0.15 * rectangle.width);
-    constexpr double lowest = 0.1;  // m: plinths and castors
-    constexpr double column_width = 0.1;
-    constexpr double min_fill = 0.6;
-    const std::size_t columns =
-        std::max<std::size_t>(3, static_cast<std::size_t>(rectangle.length / column_width));
-    const auto rows = static_cast<std::size_t>(std::max(1.0, (below - lowest) / all.reach));
-    // The short sides only of what is nearly square.
-    const bool has_short = rectangle.width >= 0.7 * rectangle.length;
-    std::array<std::vector<bool>, 4> is_filled;
-    is_filled.fill(std::vector<bool>(columns * rows, false));
-    const auto bin = [](double share, std::size_t bins) {
-        return static_cast<std::size_t>(
-            std::clamp(share * static_cast<double>(bins), 0.0, static_cast<double>(bins) - 1.0));
-    };
-    for (const std::uint32_t i : draft.voxels) {
-        const FurnitureVoxel& voxel = all.voxels[i];
-        if (!voxel.is_upright || voxel.height < lowest || voxel.height >= below) continue;
-        const Eigen::Vector2d from_center = voxel.place.head<2>() - rectangle.center;
-        const double u = from_center.dot(rectangle.axis);
-        const double v = from_center.dot(rectangle.across());
-        const std::size_t row = columns * bin((voxel.height - lowest) / (below - lowest), rows);
-        if (0.5 * rectangle.width - std::abs(v) < rim)
-            is_filled[v < 0.0 ? 0 : 1][row + bin(u / rectangle.length + 0.5, columns)] = true;
-        if (has_short && 0.5 * rectangle.length - std::abs(u) < rim)
-            is_filled[u < 0.0 ? 2 : 3][row + bin(v / rectangle.width + 0.5, columns)] = true;
-    }
-    std::size_t most = 0;
-    for (const std::vector<bool>& side : is_filled) {
-        std::size_t closed = 0;
-        for (std::size_t column = 0; column < columns; ++column) {
-            std::size_t filled = 0;
-            for (std::size_t row = 0; row < rows; ++row)
-                filled += side[row * columns + column] ? 1U : 0U;
-            closed += static_cast<double>(filled) >= min_fill * static_cast<double>(rows) ? 1U : 0U;
-        }
-        most = std::max(most, closed);
-    }
-    return static_cast<double>(most) / static_cast<double>(columns);
+PieceVerdict furniture(std::string_view kind, std::string_view rule, double confidence) {
+    return {true, kind, rule, {}, confidence};
 }
 
-/// Share of the voxels of a box that lie on flat surface: of plants and people few do.
-constexpr double min_planar = 0.5;
-
-struct WallBehind {
-    double depth = 0.0;        ///< m, from the wall to the front
-    Eigen::Vector2d off_wall;  ///< unit vector
+/// What a draft shows of the sizes in the tables.
+struct Sizes {
+    double level;
+    double rise;
+    double length;
+    double width;
+    double closed;
+    bool is_at_wall;
 };
 
-/// The wall that the piece stands at, if it does.
-std::optional<WallBehind> wall_behind(const RoomSurfaces& surfaces, const FurnitureVoxel& voxel,
-                                      const PlanRectangle& rectangle) {
-    const StoreyLayout& storey = surfaces.storeys[voxel.storey];
-    const Eigen::Matrix3d axes = surfaces.room_from_map.linear();
-    std::optional<WallBehind> least;
-    for (const WallFace& face : storey.faces) {
-        if (face.room != voxel.room) continue;
-        const Eigen::Vector2d normal = (axes * face.plane.normal).head<2>();
-        const double to_center = normal.dot(rectangle.center) - face.plane.offset;
-        const double half = 0.5 * (rectangle.length * std::abs(rectangle.axis.dot(normal)) +
-                                   rectangle.width * std::abs(rectangle.across().dot(normal)));
-        // Of a cabinet before a wall only the front may have been seen.
-        if (to_center - half > max_hidden_depth || to_center < -wall_reach) continue;
-        const Eigen::Vector2d along = (axes * face.along).head<2>();
-        const double at = along.dot(rectangle.center);
-        if (at < face.start || at > face.end) continue;
-        const double depth = to_center + half;
-        if (!least || depth < least->depth) least = WallBehind{depth, normal};
+/// The row that fits best; misses count as those of normal distributions.
+PieceVerdict best_fit(std::span<const KindSizes> rows, const Sizes& sizes, std::string_view rule) {
+    PieceVerdict best;
+    for (const KindSizes& row : rows) {
+        double misses = 0.0;
+        const auto add = [&](double miss) { misses += miss * miss; };
+        add(row.level.miss(sizes.level));
+        add(row.rise.miss(sizes.rise));
+        add(row.length.miss(sizes.length));
+        add(row.width.miss(sizes.width));
+        constexpr double closed_spread = 0.15;
+        add(std::max({row.below.low - sizes.closed, sizes.closed - row.below.high, 0.0}) /
+            closed_spread);
+        add(row.is_at_wall && !sizes.is_at_wall ? 1.0 : 0.0);
+        const double confidence = row.confidence * std::exp(-0.5 * misses);
+        if (confidence > best.confidence) best = furniture(row.kind, rule, confidence);
     }
-    return least;
+    return best;
 }
 
 /// What stands close before a wall and is thin: no furniture.
 PieceVerdict judge_thin(const PieceForm& form) {
-    PieceVerdict verdict;
     const double height = form.top - form.bottom;
-    if (form.top <= 1.1 && form.bottom <= 0.35 && height >= 0.2 && form.rectangle.length >= 0.3) {
-        verdict.kind = "radiator";
-        verdict.rule = "thin low thing before a wall";
-        verdict.confidence = 0.7;
-    } else if (form.top > 1.7 && form.bottom < 0.8) {
-        verdict.kind = "curtain";
-        verdict.rule = "thin thing before a wall from its upper end down";
-        verdict.confidence = 0.5;
-    }
-    return verdict;
-}
-
-struct Range {
-    double low;
-    double high;
-    bool holds(double value) const { return value >= low && value <= high; }
-};
-
-PieceVerdict furniture(std::string_view kind, std::string_view rule, double confidence,
-                       std::string_view alternative = {}) {
-    return {true, kind, rule, alternative, confidence};
+    if (form.top <= 1.1 && form.bottom <= 0.35 && height >= 0.2 && form.rectangle.length >= 0.3)
+        return {false, "radiator", "thin low thing before a wall", {}, 0.7};
+    if (form.top > 1.7 && form.bottom < 0.8)
+        return {false, "curtain", "thin thing before a wall from its upper end down", {}, 0.5};
+    return {};
 }
 
 PieceVerdict judge_hanging(const PieceForm& form) {
     const double height = form.top - form.bottom;
-    if (form.rectangle.length < 0.3) return {};
+    const PlanRectangle& size = form.rectangle;
     // Kitchens' wall units are 0.30 to 0.37 deep, more with a door open; a board for books 0.15 to
     // 0.3.
-    if (height >= 0.4 && form.rectangle.length >= 0.38 && form.planar > 0.75 &&
-        form.upright >= 0.3 && form.face >= 0.12 && Range{0.2, 0.75}.holds(form.depth))
+    if (height >= 0.4 && size.length >= 0.38 && form.planar > 0.75 && form.upright >= 0.3 &&
+        form.face >= 0.12 && Range{0.2, 0.75}.holds(form.depth))
         return furniture("wall_unit", "box that hangs on a wall", 0.8);
     if (form.is_at_wall && form.depth >= 0.12 && height < 0.5 && form.level >= 0.3 &&
-        Range{0.12, 0.4}.holds(form.rectangle.width) && form.rectangle.length >= 0.5) {
+        Range{0.12, 0.4}.holds(size.width) && size.length >= 0.5)
         return furniture("wall_shelf", "board that hangs on a wall", 0.7);
-    }
     return {};
 }
 
-/// Chests beside beds are nearly square and 0.45 to 0.65 high.
-bool is_nightstand(const PieceForm& form) {
-    constexpr double min_width = 0.3;
-    constexpr double max_elongation = 1.45;
-    constexpr double min_height = 0.45;
-    return form.rectangle.width >= min_width && form.seat >= min_height &&
-           form.rectangle.length <= max_elongation * form.rectangle.width;
+/// Limbs and leaves bend: no part of plants and people is flat and as large as a seat (0.14 m2).
+bool is_bent(const PieceForm& form) {
+    constexpr double min_planar = 0.4;
+    constexpr double seat_area = 0.14;
+    return form.planar < min_planar && form.face < seat_area;
 }
 
-PieceVerdict judge_low(const PieceForm& form) {
+/// A front or a wall without its depth: a row of boards is 0.24 deep and more.
+bool is_sheet(const PieceForm& form) {
+    return form.rectangle.width - form.blur < 0.24;
+}
+
+/// m: of a piece of which only the front is seen, the wall is as far behind as the piece is deep.
+constexpr Range hidden_depth{0.25, 0.85};
+
+/// Where nothing tells how deep a front's piece is, as deep as most.
+double depth_of(const PieceForm& form) {
+    if (!is_sheet(form)) return form.rectangle.width;
+    return hidden_depth.holds(form.depth) ? form.depth : 0.5;
+}
+
+/// Walls beyond doorways, leaves that stand open, layers that noise makes of walls, columns.
+bool is_of_building(const PieceForm& form) {
     const PlanRectangle& size = form.rectangle;
-    // Cartons and bins.
-    if (size.length < 0.8 && form.seat < 0.36) return {};
-    if (size.length >= 1.75 && size.width >= 0.8 && Range{0.36, 0.7}.holds(form.seat) &&
-        form.top < 1.3 && size.width <= 2.2 && (size.width > 1.15 || form.top < 0.7)) {
-        return furniture("bed", "low surface of a bed's size", 0.8);
-    }
-    if (Range{0.65, 1.15}.holds(size.width) && form.top >= 0.6) {
-        if (size.length > 1.2)
-            return furniture("sofa", "seat of several with arms and a back", 0.8);
-        return furniture("armchair", "seat with arms and a back", 0.75);
-    }
-    if (form.closed > 0.7) {
-        if (size.length > 0.9) return furniture("tv_unit", "low closed box", 0.7);
-        // Cartons, bags and heaters along walls are longer than deep, or lower.
-        if (!is_nightstand(form)) return {};
-        return furniture("nightstand", "low box of a nightstand's size", 0.65);
-    }
-    constexpr double min_bench_width = 0.28;
-    if (size.width < min_bench_width) return {};
-    if (size.width < 0.5 && size.length > 0.8) return furniture("bench", "long seat", 0.7);
-    return furniture("coffee_table", "low table top", 0.7);
+    // Without a wall behind it a front ends lower than leaves do, where noise lets one tell.
+    const bool is_low_front = form.blur <= 0.06 && form.top <= 1.9 && form.bottom <= 0.2 &&
+                              size.length >= 0.5 && form.face >= 0.6 * form.surface;
+    if (is_sheet(form) && !hidden_depth.holds(form.depth) && !is_low_front) return true;
+    // DIN 18101: leaves are 1.985 and 2.11 high, and to 1.0 wide.
+    if (is_sheet(form) && size.length <= 1.05 && Range{1.93, 2.15}.holds(form.top)) return true;
+    if (form.depth == 0.0 && form.blur > 0.08 && size.length > 1.1) return true;
+    return form.reaches_ceiling && size.length < 0.6;
 }
 
-PieceVerdict judge_seat(const PieceForm& form) {
-    const double across = form.rectangle.length;
-    // Cushions and legs are less flat than boards, leaves less than either; a seat is 0.14 m2.
-    constexpr double min_flat = 0.4;
-    constexpr double min_seat_area = 0.14;
-    if (across > 1.1 || (form.planar < min_flat && form.face < min_seat_area)) return {};
-    // Wider than a chair, and closed or narrow: a low chest, or its front.
-    constexpr double max_chair_width = 0.75;
-    constexpr double min_chair_depth = 0.35;
-    if (across > max_chair_width && (form.closed > 0.7 || form.rectangle.width < min_chair_depth))
-        return judge_low(form);
-    if (form.seat > max_seat && form.closed > 0.7)
-        return furniture("drawer_unit", "low box of a drawer unit's size", 0.7);
-    if (form.seat > max_seat)
-        return furniture("chair", "level surface above a chair's seat", 0.3, "thing");
-    if (form.top >= 0.65) {
-        if (form.rectangle.width >= 0.7 && form.upright + form.level > 0.6)
-            return furniture("armchair", "seat with arms and a back", 0.7);
-        if (across > 0.6) return furniture("office_chair", "seat with a back, on a foot", 0.8);
-        return furniture("chair", "seat with a back", 0.85);
-    }
-    // Stools are as deep as wide, 0.3 and more; cartons and bags are not.
-    constexpr double min_stool = 0.28;
-    constexpr double max_elongation = 1.45;
-    const bool is_square = form.rectangle.length <= max_elongation * form.rectangle.width;
-    // Cartons and bins stand anywhere, small chests at a wall.
-    if (form.closed > 0.7 && !form.is_at_wall) return {};
-    if (form.closed > 0.7 && is_nightstand(form))
-        return furniture("nightstand", "low box of a nightstand's size", 0.7);
-    if (!is_square && form.rectangle.width >= 0.4) return judge_low(form);
-    if (form.rectangle.width < min_stool || !is_square) return {};
-    return furniture("stool", "seat without a back", 0.75);
-}
-
-PieceVerdict judge_table(const PieceForm& form) {
-    const PlanRectangle& size = form.rectangle;
-    // Window sills.
-    if (form.is_at_wall && form.depth < 0.35 && size.width < 0.3) return {};
-    if (form.closed > 0.7 && size.width <= 0.8) {
-        if (size.length > 1.8 && size.width >= 0.5 && Range{0.82, 0.98}.holds(form.seat))
-            return furniture("base_unit", "row of boxes under a worktop", 0.85);
-        if (size.length <= 0.7 && size.width >= 0.4)
-            return furniture("drawer_unit", "box of a drawer unit's size", 0.8);
-        return furniture("cabinet", "closed box with a top", 0.85);
-    }
-    // Parts of tops, and what stands on some: no table is so small.
-    constexpr double min_table_area = 0.35;
-    if (size.area() < min_table_area)
-        return furniture("table", "part of a top at a table's height", 0.3, "thing");
-    if (form.seat > 0.85) {
-        constexpr double min_counter_length = 1.0;
-        const bool is_long = size.length >= min_counter_length;
-        if (!is_long && form.upright >= 0.78 && form.planar >= 0.9) {
-            return furniture(size.length <= 0.65 ? "drawer_unit" : "cabinet",
-                             "box at a counter's height", 0.65);
-        }
-        return furniture("counter", "top at a counter's height", is_long ? 0.7 : 0.3,
-                         is_long ? "" : "thing");
-    }
-    // Desks are 0.6 deep at least; what is less is a part, or the back of a sofa.
-    constexpr double min_table_width = 0.5;
-    constexpr double partly_closed = 0.4;
-    if (size.width < min_table_width && form.is_at_wall && form.closed >= partly_closed)
-        return furniture("cabinet", "top of a cabinet's depth at a wall", 0.65);
-    if (size.width < min_table_width)
-        return furniture("table", "part of a top at a table's height", 0.3, "thing");
-    if (size.width <= 0.85 && size.length >= 1.0)
-        return furniture("desk", "top at a desk's height, open below", 0.85);
-    return furniture("table", "top at a table's height, open below", 0.8);
-}
-
-/// A front without a wall behind it that ends lower than leaves and walls do, as fridges' and
-/// cupboards' do; where noise is strong, the ends of walls do as well.
-bool is_low_front(const PieceForm& form) {
-    constexpr double max_blur = 0.06;
-    constexpr double max_top = 1.9;
-    constexpr double max_bottom = 0.2;
-    return form.blur <= max_blur && form.top <= max_top && form.bottom <= max_bottom &&
-           form.rectangle.length >= 0.5 && form.face >= 0.6 * form.surface;
+/// Of a box a front, a side and a top are seen, one of them large; between boards there are many.
+bool is_tall_box(const PieceForm& form) {
+    const bool may_be_open =
+        form.level >= 0.08 && form.rectangle.length >= 0.6 && form.depth <= 0.6;
+    return form.planar >= 0.5 && form.face >= min_face &&
+           (form.face >= 0.25 * form.surface || may_be_open);
 }
 
 PieceVerdict judge_tall(const PieceForm& form) {
+    if (!is_tall_box(form) || is_of_building(form)) return {};
+    const bool has_boards = form.num_slabs >= 2 || form.level > 0.15;
     const PlanRectangle& size = form.rectangle;
-    if (form.planar < min_planar || form.face < 0.2) return {};
-    // Of a box a front, a side and a top are seen; between boards there are many faces.
-    const bool may_be_open = form.level >= 0.08 && size.length >= 0.6 && form.depth <= 0.6;
-    if (form.face < 0.25 * form.surface && !may_be_open) return {};
-    // A leaf that stands open and a wall beyond a doorway are thin; of a front the wall is as far
-    // behind as the piece is deep.
-    constexpr double min_width = 0.24;
-    const bool is_thin = size.width - form.blur < min_width;
-    if (is_thin && !Range{0.25, 0.85}.holds(form.depth) && !is_low_front(form)) return {};
-    // DIN 18101: leaves are 1.985 and 2.11 high, and to 1.0 wide.
-    if (is_thin && size.length <= 1.05 && Range{1.93, 2.15}.holds(form.top)) return {};
-    // Noise makes layers of walls, which look like boxes; wardrobes stand before a wall.
-    constexpr double strong_blur = 0.08;
-    constexpr double max_free = 1.1;
-    if (form.depth == 0.0 && form.blur > strong_blur && size.length > max_free) return {};
-    // Columns and pipes.
-    if (form.reaches_ceiling && size.length < 0.6) return {};
-    if (size.length < 0.38) return {};
-    if (size.width <= 0.5 && (form.num_slabs >= 2 || form.level > 0.15))
-        return furniture("shelf", "boards above each other", 0.8);
-    if (Range{0.5, 0.75}.holds(size.length) && size.width >= 0.45)
-        return furniture("fridge", "tall box of a fridge's size", 0.7);
-    if (size.width >= 0.5) return furniture("wardrobe", "tall deep box", 0.75);
-    return furniture("cabinet", "tall box", 0.75);
+    return best_fit(
+        sizes_of_tall,
+        {form.top, 0.0, size.length, depth_of(form), has_boards ? 0.6 : 1.0, form.is_at_wall},
+        has_boards ? "boards above each other" : "tall box");
 }
 
-/// m above the floor: cartons and bins are lower; a scanner sees the top of a lower cabinet.
-constexpr double min_plain_top = 0.55;
-/// Of what is nothing but boards and fronts; limbs and leaves make patches too where noise is high.
-constexpr double mostly_planar = 0.8;
-
-/// The back of a chair that is pushed under a table, which hides its seat.
-bool is_chair_back(const PieceForm& form) {
-    // m: seats lie at 0.40 to 0.52, backs end at 0.8 to 1.2 and are 0.4 to 0.6 wide.
-    constexpr double min_bottom = 0.35;
-    constexpr double max_bottom = 0.75;
-    constexpr double wall_distance = 0.5;  // screens hang or stand nearer
-    return Range{min_bottom, max_bottom}.holds(form.bottom) && Range{0.75, 1.2}.holds(form.top) &&
-           Range{0.38, 0.75}.holds(form.rectangle.length) && form.upright >= 0.7 &&
-           form.planar >= mostly_planar && (form.depth == 0.0 || form.depth > wall_distance);
-}
-
-/// A box of which two sides are seen, or its front alone, before a wall, and higher than radiators
-/// are (0.7) and a desk's side panels (0.75).
-bool is_box_at_wall(const PieceForm& form) {
-    constexpr double min_front = 0.6;    // share of what is seen
-    constexpr double min_length = 0.42;  // m: drawer units are 0.42 wide and more
-    constexpr double max_depth = 0.8;
-    const bool is_smooth = form.planar >= 0.88;
-    const bool is_face = form.face >= min_front * form.surface && form.upright >= 0.75;
-    const bool has_two_sides = form.top >= 0.7 && form.rectangle.width >= 0.35 &&
-                               form.bottom <= 0.35 && (is_smooth || is_face);
-    const bool has_front =
-        form.top >= 0.78 && form.rectangle.length >= min_length && form.bottom <= 0.2 && is_face;
-    return (has_two_sides || has_front) && Range{0.35, max_depth}.holds(form.depth) &&
-           form.rectangle.width <= max_depth && form.upright >= 0.62;
-}
-
-/// What stands in the open and is as large as a chair, with more than upright surface. Plants and
-/// radiators stand at walls, drawer units are lower or show their tops.
-bool is_chair_in_open(const PieceForm& form) {
-    constexpr double min_clearance = 0.78;  // m: of its front from a wall
-    constexpr double max_back = 0.45;       // m2, more than the back of any office chair
-    return (form.depth == 0.0 || form.depth >= min_clearance) && Range{0.8, 1.2}.holds(form.top) &&
-           form.bottom <= max_standing_bottom && Range{0.44, 0.75}.holds(form.rectangle.length) &&
-           form.rectangle.width >= 0.22 && form.planar >= 0.4 && form.upright <= 0.93 &&
-           form.face >= 0.08 && form.face <= max_back;
-}
-
-/// The fronts of a kitchen's row whose worktop was not seen.
-bool is_row_front(const PieceForm& form) {
-    const double depth = form.depth > 0.0 ? form.depth : form.rectangle.width;
-    return form.bottom <= 0.25 && Range{0.75, 1.0}.holds(form.front_top) &&
-           Range{1.2, 5.0}.holds(form.rectangle.length) && Range{0.5, 0.8}.holds(depth) &&
-           form.upright >= 0.75 && form.planar >= 0.9;
-}
-
-/// Things without a slab whose top is that of a chair or low cabinet. A cabinet of which only
-/// sides are seen stands before a wall.
-///
-/// A third of those with a confidence under a half are right over simulated scenes: they are part
-/// of the furniture, but not listed.
-PieceVerdict judge_plain(const PieceForm& form) {
+/// A box of which two sides are seen, or its front alone, before a wall.
+PieceVerdict judge_box(const PieceForm& form) {
     const PlanRectangle& size = form.rectangle;
-    if (form.top < 0.4 || size.length < 0.25) return {};
-    if (is_chair_back(form)) return furniture("chair", "back of a chair, its seat hidden", 0.65);
-    if (form.bottom > max_standing_bottom) return {};
-    if (is_row_front(form)) return furniture("base_unit", "fronts of a row before a wall", 0.65);
-    if (is_box_at_wall(form)) {
-        return size.length <= 0.65
-                   ? furniture("drawer_unit", "sides of a box of a drawer unit's size", 0.65)
-                   : furniture("cabinet", "sides of a box before a wall", 0.65);
-    }
-    if (is_chair_in_open(form)) return furniture("chair", "size of a chair, in the open", 0.65);
-    const double surface = form.surface;
-    if (size.length > 2.5 && size.width > 1.2) return {};
-    if (form.planar >= min_planar && form.upright >= 0.5 && size.length >= 0.35 &&
-        form.top >= min_plain_top && Range{0.22, 0.75}.holds(form.depth) && form.face >= 0.12 &&
-        form.face >= 0.25 * surface) {
-        return furniture("cabinet", "upright sides of a box, top not seen", 0.3, "thing");
-    }
-    if (Range{0.7, 1.2}.holds(form.top) && Range{0.35, 0.95}.holds(size.length) &&
-        form.planar > 0.4 && form.face >= 0.15 * surface)
-        return furniture("chair", "size of a chair", 0.3, "thing");
-    return {};
+    const bool is_face = form.face >= 0.6 * form.surface && form.upright >= 0.75;
+    const bool has_two_sides =
+        size.width >= box_depth.low && form.upright >= 0.62 && (form.planar >= 0.88 || is_face);
+    // A desk's side panel ends at 0.75.
+    const bool has_front = is_face && form.top >= 0.78 && form.bottom <= 0.25;
+    if (form.bottom > box_depth.low || (!has_two_sides && !has_front)) return {};
+    const double depth = form.depth > 0.0 ? form.depth : size.width;
+    const bool is_row = size.length >= 1.2;
+    if (!is_row && !box_depth.holds(form.depth)) return {};
+    return best_fit(
+        sizes_by_front,
+        {is_row ? form.front_top : form.top, 0.0, size.length, depth, 0.0, form.is_at_wall},
+        "sides of a box before a wall");
+}
+
+/// A chair whose seat was not seen: the back of one that is pushed under a table, or what is as
+/// large as a chair and stands free of walls, where plants and radiators do not.
+PieceVerdict judge_hidden_seat(const PieceForm& form) {
+    const double clearance = form.depth == 0.0 ? any.high : form.depth;
+    const Range height{0.75, 1.2};
+    const Range across{0.38, 0.75};
+    if (!height.holds(form.top) || !across.holds(form.rectangle.length)) return {};
+    const bool is_back = Range{0.35, 0.75}.holds(form.bottom) && form.upright >= 0.7 &&
+                         form.planar >= 0.8 && clearance > 0.5;
+    if (is_back) return furniture("chair", "back of a chair, its seat hidden", 0.65);
+    // m2, more than the back of any office chair; its foot and seat are not upright.
+    constexpr double max_back = 0.45;
+    const bool is_whole = form.bottom <= max_standing_bottom && form.rectangle.width >= 0.22 &&
+                          form.planar >= 0.4 && form.upright <= 0.93 &&
+                          Range{0.08, max_back}.holds(form.face) && clearance >= 0.78;
+    return is_whole ? furniture("chair", "size of a chair, in the open", 0.65) : PieceVerdict{};
 }
 
 /// A tall box before a wall whose lower part no ray reached, as scanners see it that look only so
@@ -381,89 +246,47 @@ bool is_box_seen_above(const PieceForm& form) {
            form.planar >= 0.9 && form.upright >= 0.85;
 }
 
-}  // namespace
-
-PieceForm measure_form(const FurnitureVoxels& all, std::span<const LevelSlab> slabs,
-                       const PieceDraft& draft, const RoomSurfaces& surfaces) {
-    PieceForm form;
-    form.num_voxels = draft.voxels.size();
-    form.num_slabs = draft.slabs.size();
-    if (draft.voxels.empty()) return form;
-    std::vector<double> heights;
-    std::vector<Eigen::Vector2d> places;
-    std::size_t num_level = 0;
-    std::size_t num_upright = 0;
-    std::size_t num_planar = 0;
-    std::vector<std::uint32_t> of_patches;
-    for (const std::uint32_t i : draft.voxels) {
-        const FurnitureVoxel& voxel = all.voxels[i];
-        heights.push_back(voxel.height);
-        places.emplace_back(voxel.place.head<2>());
-        num_level += voxel.is_level ? 1U : 0U;
-        num_upright += voxel.is_upright ? 1U : 0U;
-        num_planar += voxel.is_planar ? 1U : 0U;
-        if (voxel.patch != off_patch) of_patches.push_back(voxel.patch);
+PieceVerdict judge_standing(const PieceForm& form) {
+    const bool has_level = form.num_slabs > 0;
+    const bool has_bottom = form.bottom <= max_standing_bottom;
+    if (!has_level && form.top < min_tall) {
+        const PieceVerdict chair = judge_hidden_seat(form);
+        return chair.is_furniture || !has_bottom ? chair : judge_box(form);
     }
-    const auto share = [&](std::size_t count) {
-        return static_cast<double>(count) / static_cast<double>(draft.voxels.size());
-    };
-    form.level = share(num_level);
-    form.upright = share(num_upright);
-    form.rectangle = smallest_rectangle(places);
-    form.bottom = quantile(heights, 0.01);
-    form.top = quantile(heights, 0.99);
-    form.front_top = front_top(all, draft.voxels);
-    const FurnitureVoxel& some = all.voxels[draft.voxels.front()];
-    std::vector<double> noise;
-    for (const std::uint32_t i : draft.voxels)
-        noise.push_back(all.voxels[i].noise);
-    form.blur = 4.0 * median(noise);  // two deviations on either side
-    form.planar = share(num_planar);
-    std::sort(of_patches.begin(), of_patches.end());
-    std::size_t largest = 0;
-    for (std::size_t begin = 0, end = 0; begin < of_patches.size(); begin = end) {
-        while (end < of_patches.size() && of_patches[end] == of_patches[begin])
-            ++end;
-        largest = std::max(largest, end - begin);
-    }
-    const double voxel_area = 0.25 * all.reach * all.reach;
-    form.surface = voxel_area * static_cast<double>(draft.voxels.size());
-    form.face = voxel_area * static_cast<double>(largest);
-    if (const auto wall = wall_behind(surfaces, some, form.rectangle)) {
-        form.depth = wall->depth;
-        form.off_wall = wall->off_wall;
-        form.is_at_wall = wall->depth - form.rectangle.width <= wall_reach;
-    }
-    const PlanRoom& room =
-        surfaces.storeys[some.storey].plan.rooms[static_cast<std::size_t>(some.room)];
-    form.reaches_ceiling =
-        room.ceiling_height && form.top > *room.ceiling_height - room.floor_height - 0.2;
-    if (!draft.slabs.empty()) {
-        const LevelSlab& main = slabs[draft.slabs.front()];
-        form.seat = main.height;
-        for (const std::size_t slab : draft.slabs)
-            form.highest_slab = std::max(form.highest_slab, slabs[slab].height);
-        form.closed = closed_share(all, draft, main.rectangle, main.height - 0.1);
-    }
-    return form;
+    if (!has_level)
+        return has_bottom || is_box_seen_above(form) ? judge_tall(form) : PieceVerdict{};
+    // A screen on a low chest makes nothing tall of it.
+    constexpr double max_low = 0.66;
+    if (form.top >= min_tall + 0.05 && form.highest_slab > max_low) return judge_tall(form);
+    return best_fit(sizes_by_level,
+                    {form.seat, form.top - form.seat, form.rectangle.length, form.rectangle.width,
+                     form.closed, form.is_at_wall},
+                    form.seat > max_low ? "top of a table's or chest's height" : "seat or low top");
 }
+
+/// What stands, is as large as furniture and flat-sided, whatever it is.
+bool is_of_furniture_size(const PieceForm& form) {
+    constexpr double mostly_planar = 0.7;
+    const PlanRectangle& size = form.rectangle;
+    const bool is_tall = form.top > min_tall;
+    return form.bottom <= box_depth.low && form.top >= 0.4 &&
+           size.length >= (is_tall ? 0.6 : 0.4) && size.width - form.blur >= 0.18 &&
+           form.planar >= mostly_planar && form.face >= min_face &&
+           !(is_tall && (is_of_building(form) || form.reaches_ceiling));
+}
+
+}  // namespace
 
 PieceVerdict judge_piece(const PieceForm& form) {
     constexpr std::size_t min_voxels = 30;  // of 4 cm: 0.05 m2 of surface
-    if (form.num_voxels < min_voxels) return {};
+    if (form.num_voxels < min_voxels || is_bent(form)) return {};
     if (form.depth > 0.0 && form.depth <= max_thin_depth) return judge_thin(form);
     if (form.bottom >= min_hanging_bottom) return judge_hanging(form);
-    if (form.num_slabs == 0 && form.top < 1.25) return judge_plain(form);
-    if (form.num_slabs == 0)
-        return form.bottom <= max_standing_bottom || is_box_seen_above(form) ? judge_tall(form)
-                                                                             : PieceVerdict{};
-    // A screen on a low chest makes nothing tall of it.
-    if (form.top >= 1.3 && form.highest_slab > 0.66) return judge_tall(form);
-    if (form.seat <= 0.66) {
-        const bool is_seat = form.seat >= 0.36 && form.rectangle.length <= 1.1;
-        return is_seat ? judge_seat(form) : judge_low(form);
-    }
-    return judge_table(form);
+    const PieceVerdict verdict = judge_standing(form);
+    if (verdict.confidence >= min_piece_confidence || !is_of_furniture_size(form))
+        return verdict.confidence >= min_piece_confidence ? verdict : PieceVerdict{};
+    constexpr double unsure = 0.4;  // half of what is so over simulated rooms is furniture
+    return furniture("other", "flat-sided thing of furniture's size", unsure);
 }
 
 bool has_fronts(std::string_view kind) {

@@ -1,55 +1,29 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cstdint>
-#include <span>
 #include <string_view>
-#include <vector>
 
-#include "roomscribe/interpretation/furniture/furniture_voxels.hpp"
-#include "roomscribe/interpretation/furniture/level_slabs.hpp"
-#include "roomscribe/interpretation/furniture/piece_drafts.hpp"
-#include "roomscribe/interpretation/furniture/plan_rectangle.hpp"
+#include "roomscribe/interpretation/furniture/piece_form.hpp"
 
 namespace roomscribe {
 
-/// A draft's size and form.
-struct PieceForm {
-    PlanRectangle rectangle;
-    double bottom = 0.0;        ///< m above the floor
-    double top = 0.0;           ///< m above the floor
-    double front_top = 0.0;     ///< m above the floor, where its front ends
-    double level = 0.0;         ///< share of the voxels that are level
-    double upright = 0.0;       ///< share of the voxels that are upright
-    double seat = 0.0;          ///< m above the floor, of its main slab; 0 for none
-    double highest_slab = 0.0;  ///< m above the floor; 0 for none
-    double closed = 0.0;   ///< share of the sides below the main slab that upright surface closes
-    double surface = 0.0;  ///< m2, of all voxels
-    double face = 0.0;     ///< m2, of the largest flat surface
-    double planar = 0.0;   ///< share of the voxels that are part of a flat surface
-    bool is_at_wall = false;  ///< its back is nearer than a hand's breadth to a wall
-    /// In the room frame, level, off the wall that it stands at; zero for none.
-    Eigen::Vector2d off_wall = Eigen::Vector2d::Zero();
-    double blur = 0.0;   ///< m, by which noise makes what is flat look thick
-    double depth = 0.0;  ///< m, from that wall to its front; 0 for no wall
-    bool reaches_ceiling = false;
-    std::size_t num_voxels = 0;
-    std::size_t num_slabs = 0;
-};
-
-PieceForm measure_form(const FurnitureVoxels& all, std::span<const LevelSlab> slabs,
-                       const PieceDraft& draft, const RoomSurfaces& surfaces);
+/// A piece that is more likely none, or another's part, is not listed.
+inline constexpr double min_piece_confidence = 0.5;
 
 /// What a draft is held to be.
 struct PieceVerdict {
     bool is_furniture = false;
-    std::string_view kind;  ///< "furniture" if unsure; of what is no furniture, empty if unsure
+    std::string_view kind;  ///< "other" if unsure; of what is no furniture, empty if unsure
     std::string_view rule;
     std::string_view alternative;  ///< not empty if doubtful
     double confidence = 0.0;
 };
 
-/// Kind by sizes from furnishing practice (docs/furniture.md).
+/// The kind whose sizes the draft fits best, by furnishing practice (docs/furniture.md). A
+/// confidence is the kind's own times the fit. What fits none well, but stands, is flat-sided and
+/// as large as furniture, is "other" with less than min_piece_confidence. No furniture: what is too
+/// small, bent (plants, people), part of the building, or hangs before a wall as radiators and
+/// curtains do.
 PieceVerdict judge_piece(const PieceForm& form);
 
 /// Whether pieces of a kind are closed by doors or drawers.
