@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "roomscribe/interpretation/openings/wall_relief.hpp"
 
+#include <algorithm>
+#include <functional>
 #include <limits>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -148,6 +151,57 @@ TEST(WallHoles, AreLinedWhereTheWallGoesInwards) {
             EXPECT_GT(evidence.lining, 0.9);
         } else {
             EXPECT_EQ(evidence.lining, 0.0);
+        }
+    }
+}
+
+/// A hole of 1 x 1.4 m, 1 m above the floor; `depth`: m, of what is seen at x, z in it. Where it is
+/// 0, nothing was seen; where it is negative, wall.
+WallRelief hole_with(const std::function<double(double, double)>& depth) {
+    WallRelief relief = measure({});
+    relief.has_rays = true;
+    for (int row = 0; row < relief.num_rows; ++row) {
+        for (int column = 0; column < relief.num_columns; ++column) {
+            ReliefCell& cell = relief.cells[relief.index(column, row)];
+            const bool is_hole = column >= 15 && column < 25 && row >= 6 && row < 20;
+            const double at = is_hole ? depth(0.1 * (column - 14.5), 0.1 * (row - 5.5)) : -1.0;
+            cell.surface = at < 0.0 ? 4 : 0;
+            cell.through = 0;
+            cell.recess = at > 0.0 ? 4 : 0;
+            const auto bin = static_cast<std::size_t>(std::max(at, 0.0) / depth_bin);
+            relief.depths[relief.index(column, row) * num_depth_bins + bin] =
+                static_cast<std::uint16_t>(cell.recess);
+        }
+    }
+    return relief;
+}
+
+TEST(WallHoles, AreOneWhereSomethingStandsBeforeThem) {
+    const auto with_band = [](double value) {
+        return [value](double, double z) { return z > 0.5 && z < 0.9 ? value : 0.1; };
+    };
+    const std::vector<CellRectangle> holes = find_wall_holes(hole_with(with_band(0.0)));
+    ASSERT_EQ(holes.size(), 1U);
+    EXPECT_EQ(holes[0].low, 6);
+    EXPECT_EQ(holes[0].high, 20);
+    EXPECT_EQ(find_wall_holes(hole_with(with_band(-1.0))).size(), 2U);  // wall between them
+}
+
+TEST(WallHoles, TellAFrameFromTheSidesOfANiche) {
+    const WallRelief window = hole_with(
+        [](double x, double z) { return x > 0.2 && x < 0.8 && z > 0.2 && z < 1.2 ? 0.15 : 0.1; });
+    const WallRelief niche = hole_with([](double x, double z) {
+        return x > 0.2 && x < 0.8 && z > 0.2 && z < 1.2 ? 0.3 : 0.02 + 0.07 * (x + z);
+    });
+    for (const WallRelief* relief : {&window, &niche}) {
+        const std::vector<CellRectangle> holes = find_wall_holes(*relief);
+        ASSERT_EQ(holes.size(), 1U);
+        const HoleEvidence evidence = look_into(*relief, holes[0]);
+        EXPECT_GT(evidence.sunk(), 0.02);
+        if (relief == &window) {
+            EXPECT_EQ(evidence.depths.rim_at_depth, 1.0);
+        } else {
+            EXPECT_LT(evidence.depths.rim_at_depth, 0.6);
         }
     }
 }

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
 
 #include <gtest/gtest.h>
 
@@ -173,6 +174,42 @@ TEST(InterpretMap, ADoorWhoseLintelNobodySawHasTheUsualHeight) {
     EXPECT_NEAR(height_of(*doors[0]), 2.0, 0.1);
     EXPECT_NEAR(width_of(*doors[0]), 0.9, 0.1);
     EXPECT_TRUE(of_label(found.scene, Label::window).empty());
+}
+
+/// The two rooms with one or two parts of their description replaced.
+Reconstruction find_with(const std::string& old_part, const std::string& new_part,
+                         const std::string& other_old = "", const std::string& other_new = "") {
+    std::string text = two_rooms;
+    text.replace(text.find(old_part), old_part.size(), new_part);
+    text.replace(text.find(other_old), other_old.size(), other_new);
+    Scenario scenario = scenario_from_json(text);
+    scenario.seed = 1;
+    Reconstruction found;
+    found.map = simulate_scene(scenario).truth.map;
+    interpret_map(found);
+    return found;
+}
+
+TEST(InterpretMap, WallBelowAHoleIsASillAndNoThreshold) {
+    const Reconstruction found = find_with(R"("height": 1.1)", R"("height": 1.9)",
+                                           R"("sill": 0.9, "frame_width": 0.07, "recess": 0.12)",
+                                           R"("sill": 0.12, "frame_width": 0.07, "recess": 0.12)");
+    EXPECT_EQ(of_label(found.scene, Label::window).size(), 2U);
+    EXPECT_EQ(of_label(found.scene, Label::door).size(), 1U);
+}
+
+TEST(InterpretMap, APanelBesideAWidePassageIsNoLeafOfIt) {
+    const Reconstruction found = find_with(
+        R"({ "kind": "door", "room": "left", "at": [4, 1.0], "width": 0.86, "height": 2.0,
+                  "recess": 0.05 })",
+        R"({ "kind": "passage", "room": "left", "at": [4, 1.0], "width": 1.4, "height": 2.05 })",
+        R"({ "kind": "table", "at": [2.0, 1.9])",
+        R"({ "kind": "wardrobe", "at": [4.5, 1.72], "turn": 0, "size": [0.7, 0.04, 2.0] },
+             { "kind": "table", "at": [2.0, 1.9])");
+    EXPECT_TRUE(of_label(found.scene, Label::door).empty());
+    const auto is_passage = [](const Component& component) { return component.kind == "opening"; };
+    EXPECT_EQ(
+        std::count_if(found.scene.components.begin(), found.scene.components.end(), is_passage), 1);
 }
 
 TEST(InterpretMap, GivesTheSameSceneOnOneAndTwoThreads) {

@@ -246,7 +246,6 @@ void move_edges(WallOpening& opening, const DoorEdges& edges) {
         sides[i] = read_door_side(edges.points[i], leaf_depth, noise);
         if (sides[i] && sides[i]->outer)
             widest_side = std::max(widest_side, *sides[i]->outer - sides[i]->inner);
-        if (sides[i]) ++(sides[i]->outer ? opening.num_casings : opening.num_plain_sides);
     }
     // One casing goes around a door; what stands beside it may hide a part of a side.
     if (widest_side > 0.0) opening.frame_width = widest_side;

@@ -17,7 +17,9 @@ struct FlatDoor {
 
 /// Closed leaves nearly in the plane of their wall: rectangles of a door's size, on the floor, that
 /// lie a few millimetres deeper than the wall on both sides and above, or have a casing around them
-/// that stands out. The clearest first; no two share a column.
+/// that stands out. Two leaves need the casing, and so does one above which the wall shows only in
+/// part; where nothing was seen above, as by scanners that look up by few degrees, both sides are
+/// enough. The clearest first; no two share a column.
 std::vector<FlatDoor> find_flat_doors(const WallRelief& relief);
 
 }  // namespace roomscribe

@@ -54,7 +54,8 @@ struct HoleEvidence {
 };
 
 /// The holes of a wall's face: of each group of open cells the rectangle that holds the most of
-/// them and the least wall. Cells that nothing was seen of do not part a group.
+/// them and the least wall. Cells that nothing was seen of do not part a group, and what stands
+/// before a hole does not part it: see docs/interpretation.md.
 std::vector<CellRectangle> find_wall_holes(const WallRelief& relief);
 
 HoleEvidence look_into(const WallRelief& relief, const CellRectangle& hole);

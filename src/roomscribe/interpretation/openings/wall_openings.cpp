@@ -231,8 +231,13 @@ std::vector<OpenLeafSide> OpeningFinder::find_open_leaves(const WallFace& face,
         if (!is_upright(patch)) continue;
         const Vector3d middle = place(face, 0.5 * (hole.start + hole.end), patch.centroid.dot(up_));
         if ((patch.centroid - middle).norm() > hole.width() + 0.3) continue;
+        // What lies across the hole in the depth of the wall, along its rims, would close it.
+        constexpr double slack = 0.15;
+        const double depth = -face.plane.signed_distance(patch.centroid);
+        const double position = patch.centroid.dot(face.along);
+        const bool is_across = position > hole.start && position < hole.end;
         if (std::abs(patch.plane.normal.dot(face.plane.normal)) > std::cos(radians(4.0)) &&
-            std::abs(face.plane.signed_distance(patch.centroid)) < 0.15) {
+            depth > -slack && depth < (is_across ? thickness + slack : slack)) {
             continue;
         }
         const LeafExtent& extent = extents_[number];

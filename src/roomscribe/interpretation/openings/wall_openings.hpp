@@ -41,8 +41,6 @@ struct WallOpening {
     double depth = 0.0;        ///< m behind the face, of the leaf or the pane
     double frame_depth = 0.0;  ///< m behind the face, of a window's frame and mullions
     double frame_width = 0.0;  ///< m; around a leaf, within a window's hole; 0 for none
-    int num_casings = 0;       ///< sides along which a casing stands before the wall
-    int num_plain_sides = 0;   ///< sides that were seen as well, without one
     bool is_open = false;      ///< a door that stands open
     bool is_pane = false;      ///< a door of which one pane was told
     std::vector<OpenLeafSide> open_leaves;  ///< of an open door
@@ -66,8 +64,9 @@ struct Openings {
 /// up) and beyond it.
 ///
 /// Each wall's face is looked at cell by cell (measure_wall_relief). A hole (find_wall_holes) at
-/// the floor as high as a door is a door, closed where a leaf fills it. Where no leaf was seen, it
-/// is a passage if wider than any single leaf, and a doubtful door if not. A hole above the floor
+/// the floor as high as a door is a door, closed where a leaf, or the stiles and rails of a glazed
+/// one, fill it. Where no leaf was seen that could close it, it is a passage if wider than any
+/// single leaf, and a doubtful door if not. Wall below a hole is a sill. A hole above the floor
 /// that shows signs of glass, or is like one that does, is a window, but for mirrors, which `rays`
 /// tell (MirrorTest). Closed leaves nearly in the plane of their wall are found by find_flat_doors.
 /// What opens to both sides of a wall is one opening. Instances are counted on from `surfaces`,

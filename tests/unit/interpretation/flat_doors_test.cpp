@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: MIT
+#include "roomscribe/interpretation/openings/flat_doors.hpp"
+
+#include <functional>
+
+#include <gtest/gtest.h>
+
+namespace roomscribe {
+namespace {
+
+constexpr double cell_size = 0.05;
+
+/// A wall of 4 x 2.6 m; `height`: m before its plane, of what is at x, z. Rows from `seen_up_to`
+/// on, and all but each `line_spacing`-th, were not seen.
+WallRelief wall_with(const std::function<double(double, double)>& height, double seen_up_to = 2.6,
+                     int line_spacing = 1) {
+    WallRelief relief;
+    relief.cell_size = cell_size;
+    relief.tolerance = 0.02;
+    relief.num_columns = 80;
+    relief.num_rows = 52;
+    relief.has_rays = true;
+    relief.cells.resize(80U * 52U);
+    relief.depths.resize(relief.cells.size() * num_depth_bins);
+    for (int row = 0; row < relief.num_rows; row += line_spacing) {
+        const double z = (row + 0.5) * cell_size;
+        if (z > seen_up_to) continue;
+        for (int column = 0; column < relief.num_columns; ++column) {
+            ReliefCell& cell = relief.cells[relief.index(column, row)];
+            cell.surface = cell.near = 4;
+            cell.height = static_cast<float>(4.0 * height((column + 0.5) * cell_size, z));
+        }
+    }
+    return relief;
+}
+
+/// A leaf 1 cm deep from `start` to `end`, 2 m high, and its casing of 10 cm, 1.5 cm before the
+/// wall.
+double cased_door(double x, double z, double start, double end) {
+    if (x > start && x < end && z < 2.0) return -0.01;
+    return x > start - 0.1 && x < end + 0.1 && z < 2.1 ? 0.015 : 0.0;
+}
+
+void expect_door(const FlatDoor& door, double start, double end) {
+    // To a casing's width: fit_door_sides() moves the edges.
+    EXPECT_NEAR(door.cells.left * cell_size, start, 0.11);
+    EXPECT_NEAR(door.cells.right * cell_size, end, 0.11);
+}
+
+TEST(FlatDoors, AreFoundByLeafAndCasing) {
+    const auto doors =
+        find_flat_doors(wall_with([](double x, double z) { return cased_door(x, z, 1.5, 2.4); }));
+    ASSERT_EQ(doors.size(), 1U);
+    expect_door(doors[0], 1.5, 2.4);
+    EXPECT_NEAR(doors[0].cells.high * cell_size, 2.0, 1.5 * cell_size);
+    EXPECT_TRUE(doors[0].has_lintel);
+    EXPECT_TRUE(find_flat_doors(wall_with([](double, double) { return 0.0; })).empty());
+}
+
+TEST(FlatDoors, NeedNoLintelWhereNobodyLookedUp) {
+    const auto doors = find_flat_doors(
+        wall_with([](double x, double z) { return cased_door(x, z, 1.5, 2.4); }, 1.9));
+    ASSERT_EQ(doors.size(), 1U);
+    expect_door(doors[0], 1.5, 2.4);
+    EXPECT_FALSE(doors[0].has_lintel);
+}
+
+TEST(FlatDoors, ShowBetweenTheLinesOfACoarseScanner) {
+    const auto doors = find_flat_doors(
+        wall_with([](double x, double z) { return cased_door(x, z, 1.5, 2.4); }, 2.6, 3));
+    ASSERT_EQ(doors.size(), 1U);
+    expect_door(doors[0], 1.5, 2.4);
+}
+
+TEST(FlatDoors, StandCloseBesideACorner) {
+    const auto doors =
+        find_flat_doors(wall_with([](double x, double z) { return cased_door(x, z, 0.2, 1.1); }));
+    ASSERT_EQ(doors.size(), 1U);
+    expect_door(doors[0], 0.2, 1.1);
+}
+
+TEST(FlatDoors, AreNotTheWallBetweenThem) {
+    const auto doors = find_flat_doors(wall_with(
+        [](double x, double z) {
+            return x < 1.95 ? cased_door(x, z, 0.7, 1.5) : cased_door(x, z, 2.4, 3.2);
+        },
+        1.9));
+    ASSERT_EQ(doors.size(), 2U);
+    for (const FlatDoor& door : doors)
+        expect_door(door, door.cells.left < 30 ? 0.7 : 2.4, door.cells.left < 30 ? 1.5 : 3.2);
+}
+
+TEST(FlatDoors, HaveACasingWhereTheyHaveTwoLeaves) {
+    const auto doors =
+        find_flat_doors(wall_with([](double x, double z) { return cased_door(x, z, 1.0, 2.6); }));
+    ASSERT_EQ(doors.size(), 1U);
+    expect_door(doors[0], 1.0, 2.6);
+    const auto none = find_flat_doors(
+        wall_with([](double x, double z) { return x > 1.0 && x < 2.6 && z < 2.0 ? -0.03 : 0.0; }));
+    EXPECT_TRUE(none.empty());
+}
+
+}  // namespace
+}  // namespace roomscribe
