@@ -290,10 +290,10 @@ PieceVerdict judge_piece(const PieceForm& form) {
 }
 
 bool has_fronts(std::string_view kind) {
-    constexpr std::array<std::string_view, 9> closed{"cabinet",     "base_unit",  "wall_unit",
-                                                     "drawer_unit", "nightstand", "tv_unit",
-                                                     "wardrobe",    "fridge",     "counter"};
-    return std::find(closed.begin(), closed.end(), kind) != closed.end();
+    constexpr std::array<std::string_view, 9> kinds{"cabinet",     "base_unit",  "wall_unit",
+                                                    "drawer_unit", "nightstand", "tv_unit",
+                                                    "wardrobe",    "fridge",     "counter"};
+    return std::find(kinds.begin(), kinds.end(), kind) != kinds.end();
 }
 
 }  // namespace roomscribe
