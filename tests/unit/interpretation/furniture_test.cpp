@@ -603,6 +603,20 @@ TEST(JudgePiece, AsksOfSeatsAndTopsTheirSizes) {
     EXPECT_LT(judge_piece(desk).confidence, 0.5);
 }
 
+TEST(JudgePiece, LabelsWhatIsAsLargeAsFurnitureButFitsNoKindAsOther) {
+    // Too deep for a chest and without a wall.
+    PieceForm box = upright_form(1.4, 1.1, 0.07, 0.8);
+    EXPECT_TRUE(judge_piece(box).is_furniture);
+    EXPECT_EQ(judge_piece(box).kind, "other");
+    EXPECT_LT(judge_piece(box).confidence, min_piece_confidence);
+    // A plant of that size.
+    box.planar = 0.3;
+    box.face = 0.05;
+    EXPECT_FALSE(judge_piece(box).is_furniture);
+    // A carton.
+    EXPECT_FALSE(judge_piece(upright_form(0.35, 0.3, 0.07, 0.3)).is_furniture);
+}
+
 TEST(SmallestRectangle, FollowsATurnedRectangle) {
     std::vector<Eigen::Vector2d> places;
     const double turn = radians(25.0);

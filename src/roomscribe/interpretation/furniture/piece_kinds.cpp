@@ -57,7 +57,7 @@ constexpr std::array<KindSizes, 16> sizes_by_level{{
     {"table", {0.66, 0.85}, any, {0.60, 3.70}, {0.50, 1.60}, any, false, 0.80},
     {"counter", {0.85, 1.20}, any, {1.00, 6.00}, {0.40, 1.20}, open, false, 0.70},
     {"drawer_unit", {0.50, 1.20}, any, {0.40, 0.70}, {0.40, 0.80}, closed, false, 0.80},
-    {"base_unit", {0.82, 0.98}, any, {1.80, 6.00}, {0.50, 0.80}, closed, false, 0.85},
+    {"base_unit", {0.82, 0.98}, any, {1.80, 6.00}, {0.50, 0.90}, closed, false, 0.85},
     {"cabinet", {0.66, 1.25}, any, {0.40, 3.00}, {0.25, 0.80}, closed, false, 0.84},
 }};
 
@@ -290,10 +290,10 @@ PieceVerdict judge_piece(const PieceForm& form) {
 }
 
 bool has_fronts(std::string_view kind) {
-    constexpr std::array<std::string_view, 9> closed{"cabinet",     "base_unit",  "wall_unit",
-                                                     "drawer_unit", "nightstand", "tv_unit",
-                                                     "wardrobe",    "fridge",     "counter"};
-    return std::find(closed.begin(), closed.end(), kind) != closed.end();
+    constexpr std::array<std::string_view, 9> kinds{"cabinet",     "base_unit",  "wall_unit",
+                                                    "drawer_unit", "nightstand", "tv_unit",
+                                                    "wardrobe",    "fridge",     "counter"};
+    return std::find(kinds.begin(), kinds.end(), kind) != kinds.end();
 }
 
 }  // namespace roomscribe
