@@ -71,6 +71,25 @@ TEST(BentWalls, GoOnBesideTheirPlane) {
     EXPECT_FLOAT_EQ(wall.labels.confidences.back(), 0.4F);
 }
 
+TEST(BentWalls, CeilingsGoOnAndFloorsDoNot) {
+    for (const Label label : {Label::ceiling, Label::floor}) {
+        BentWall wall(0.08F);
+        wall.surfaces.surfaces[0].component.label = label;
+        std::replace(wall.labels.labels.begin(), wall.labels.labels.end(), Label::wall, label);
+        wall.go_on();
+        EXPECT_EQ(wall.label_near({0.08F, 3.9F, 1.2F}),
+                  label == Label::ceiling ? label : Label::unknown);
+    }
+}
+
+TEST(BentWalls, DoNotGoOnToWhatWasFoundToHang) {
+    BentWall wall(0.08F);
+    wall.surfaces.is_hung.assign(wall.sample.cloud.size(), false);
+    wall.surfaces.is_hung.back() = true;
+    wall.go_on();
+    EXPECT_EQ(wall.labels.labels.back(), Label::unknown);
+}
+
 TEST(BentWalls, DoNotGoOntoWhatHangsOnThem) {
     BentWall wall(0.08F);
     wall.go_on();

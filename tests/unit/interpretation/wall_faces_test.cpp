@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <optional>
+#include <tuple>
 #include <vector>
 
 #include <Eigen/Geometry>
@@ -97,6 +99,22 @@ TEST(WallFaces, WhatStandsAskewAtAWholeWallIsNoLeaf) {
     room.add(Vector3d::Zero(), 0.0, 4.0, ceiling, everywhere);
     room.add(Vector3d(0.0, 1.52, 0.0), 25.0, 0.85, 1.98, everywhere);
     EXPECT_EQ(room.find().size(), 2U);
+}
+
+TEST(WallFaces, AFaceAsNarrowAsAWardrobeIsDeepReachesFromFloorToCeiling) {
+    for (const auto& [width, height, count] :
+         {std::tuple(0.6, 2.15, 0U), std::tuple(0.6, ceiling, 1U), std::tuple(0.9, 2.15, 1U)}) {
+        RoomWithSurfaces room;
+        // Where no ceiling was seen.
+        room.plan.rooms[0] = {0.0, ceiling, ceiling};
+        if (height < ceiling) {
+            room.plan.rooms[0] = {0.0, std::nullopt, std::nullopt};
+            for (float& cell : room.plan.ceiling_of_cell)
+                cell = std::numeric_limits<float>::quiet_NaN();
+        }
+        room.add(Vector3d(0.0, 1.0, 0.0), 0.0, width, height, everywhere);
+        EXPECT_EQ(room.find().size(), count) << width << " x " << height;
+    }
 }
 
 TEST(WallFaces, WhatEndsBelowTheCeilingOverItDoesNotReachIt) {

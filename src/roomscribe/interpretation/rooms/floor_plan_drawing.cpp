@@ -386,8 +386,10 @@ void PlanDrawer::choose_rooms() {
         const bool is_over_floor = !storey_.floor || count.ceiling == most_ceiling ||
                                    count.floor >= min_floor_share * count.cells;
         const bool has_ceiling = count.ceiling >= min_level_share * count.cells && is_over_floor;
+        // Where it is not known how a view ends, a roof's underside is no ceiling of a room.
+        const int level = knows_scanners ? count.level : count.floor;
         const bool is_walled =
-            count.level >= min_level_share * count.cells &&
+            level >= min_level_share * count.cells &&
             (!knows_scanners || count.closed_rim >= min_closed_share * count.rim);
         return count.holds_scanner || has_ceiling || is_walled;
     };

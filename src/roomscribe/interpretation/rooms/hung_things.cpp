@@ -18,6 +18,8 @@ using Eigen::Vector3d;
 
 /// m: twice what DIN 18202 allows walls over 1 m.
 constexpr double min_step = 0.006;
+/// Standard deviations of the noise: nearer layers cannot be told apart (find_relief_layers).
+constexpr double min_deviations = 2.0;
 /// m. Frames and screens are no thicker; shelves and wall units are.
 constexpr double max_step = 0.1;
 /// m2. A whiteboard has 2.4 x 1.2 m.
@@ -84,7 +86,7 @@ void FaceRelief::mark(const PlanarPatch& patch, std::vector<bool>& is_hung) cons
     if (std::min(extent.width(), extent.height()) < min_size || extent.area() > max_area) return;
     if (patch.area < min_fill * extent.area()) return;
     const double height = median(befores);
-    const double least = std::max(min_step, 0.5 * sample_.noise);
+    const double least = std::max(min_step, min_deviations * sample_.noise);
 
     // What lies beside each side a step deeper, and in how many places along the side it shows.
     const WallRectangle inner = extent.grown(cell_size_, cell_size_, cell_size_);

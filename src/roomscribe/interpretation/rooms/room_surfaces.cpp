@@ -31,6 +31,9 @@ constexpr double max_table_area = 2.5;
 constexpr double max_furniture_depth = 1.0;
 /// Of a floor or ceiling. Where less was seen, its tilt is that of noise: it is level then.
 constexpr double min_tilt_coverage = 0.3;
+/// m2. What was seen of a room's floor or ceiling and is less, is the neighbour's that noise or a
+/// door's depth put there.
+constexpr double min_piece_area = 0.2;
 /// Deviation of an outline, about the spacing of the sample.
 constexpr double outline_tolerance = 0.05;
 
@@ -237,10 +240,15 @@ void SurfaceBuilder::add_storey(const Storey& storey, StoreyLayout& layout) {
     if (storey.floor) floors.push_back(*storey.floor);
     auto floor_pieces = pieces_by_room(floors, plan);
     auto ceiling_pieces = pieces_by_room(storey.ceilings, plan);
+    const double voxel_area = sample_.spacing * sample_.spacing;
+    const auto is_seen = [&](std::map<std::int32_t, LevelPiece>& pieces, std::int32_t room) {
+        return pieces.contains(room) &&
+               voxel_area * static_cast<double>(pieces[room].voxels.size()) >= min_piece_area;
+    };
     const auto add_pieces = [&](std::int32_t room, const std::string& id, const Outline& outline) {
-        if (floor_pieces.contains(room))
+        if (is_seen(floor_pieces, room))
             add_level(floor_pieces[room], Label::floor, storey, id, outline);
-        if (ceiling_pieces.contains(room))
+        if (is_seen(ceiling_pieces, room))
             add_level(ceiling_pieces[room], Label::ceiling, storey, id, outline);
     };
     if (plan.rooms.empty()) add_pieces(no_room, "", {});
@@ -301,6 +309,38 @@ bool is_topmost(const SurfaceSample& sample, const PlanarPatch& patch, const Eig
         if ((place >= low).all() && (place <= high).all()) ++above;
     }
     return static_cast<double>(above) <= max_share_above * static_cast<double>(patch.points.size());
+}
+
+/// Takes out the ceilings most of whose surface lies in the depth of walls that go on above them:
+/// undersides of lintels. Whether there was any.
+bool drop_lintels(Storey& storey, const SurfaceSample& sample, std::span<const PlanarPatch> patches,
+                  std::span<const WallFace> faces, const Eigen::Vector3d& up) {
+    constexpr double max_wall_depth = 0.5;
+    const auto is_in_wall = [&](const Eigen::Vector3d& point) {
+        return std::any_of(faces.begin(), faces.end(), [&](const WallFace& face) {
+            const double depth = -face.plane.signed_distance(point);
+            const double along = face.along.dot(point);
+            return depth > -face.noise && depth < max_wall_depth && along > face.start &&
+                   along < face.end && point.dot(up) < face.top;
+        });
+    };
+    const auto is_lintel = [&](std::span<const std::uint32_t> numbers) {
+        std::size_t count = 0;
+        std::size_t in_walls = 0;
+        for (const std::uint32_t patch : numbers) {
+            for (const std::uint32_t voxel : patches[patch].points) {
+                ++count;
+                in_walls += is_in_wall(sample.cloud.positions[voxel].cast<double>()) ? 1 : 0;
+            }
+        }
+        return 2 * in_walls > count;
+    };
+    const std::size_t num_levels = std::erase_if(
+        storey.ceilings, [&](const Level& level) { return is_lintel(level.patches); });
+    const std::size_t num_slopes = std::erase_if(storey.sloping_ceilings, [&](std::uint32_t patch) {
+        return is_lintel(std::span(&patch, 1));
+    });
+    return num_levels + num_slopes > 0;
 }
 
 /// What is said of floors and walls is no surer than which way is up.
@@ -365,10 +405,14 @@ RoomSurfaces find_room_surfaces(std::span<const Ray> rays, const SurfaceSample& 
         const double to = i + 1 == storeys.size() ? infinity : storeys[i + 1].floor->height;
         const auto surfaces = find_upright_surfaces(sample, patches, up, from, to, settings);
         StoreyLayout layout;
-        layout.plan = draw_floor_plan(rays, sample, patches, upright.room_from_map, storeys[i],
-                                      surfaces, settings);
-        layout.faces = find_wall_faces(rays, sample, patches, surfaces, layout.plan,
-                                       upright.room_from_map, settings);
+        const auto lay_out = [&] {
+            layout.plan = draw_floor_plan(rays, sample, patches, upright.room_from_map, storeys[i],
+                                          surfaces, settings);
+            layout.faces = find_wall_faces(rays, sample, patches, surfaces, layout.plan,
+                                           upright.room_from_map, settings);
+        };
+        lay_out();
+        if (drop_lintels(storeys[i], sample, patches, layout.faces, up)) lay_out();
         mark_hung_things(sample, patches, layout.faces, up, result.is_hung);
         fill_to_walls(layout.plan, layout.faces, upright.room_from_map);
         if (!layout.plan.rooms.empty()) layout.floor_height = layout.plan.rooms[0].floor_height;
