@@ -49,6 +49,9 @@ struct HoleEvidence {
     double lost = 0.0;
     HoleDepths depths;
 
+    std::optional<double> rim_of(HoleSide side) const {
+        return rim[static_cast<std::size_t>(side)];
+    }
     /// m, by how much the middle lies deeper than the sides.
     double sunk() const { return depths.rim && depths.middle ? *depths.middle - *depths.rim : 0.0; }
 };

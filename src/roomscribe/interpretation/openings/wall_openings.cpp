@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <limits>
 #include <utility>
 
 #include <Eigen/Geometry>
@@ -13,8 +12,10 @@
 #include "roomscribe/core/quantile.hpp"
 #include "roomscribe/core/units.hpp"
 #include "roomscribe/interpretation/openings/door_sides.hpp"
+#include "roomscribe/interpretation/openings/door_sizes.hpp"
 #include "roomscribe/interpretation/openings/flat_doors.hpp"
 #include "roomscribe/interpretation/openings/mirror_test.hpp"
+#include "roomscribe/interpretation/openings/open_leaves.hpp"
 #include "roomscribe/interpretation/openings/opening_components.hpp"
 #include "roomscribe/interpretation/openings/wall_holes.hpp"
 
@@ -24,21 +25,9 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-// m. Leaves have 0.61 to 1.11 m by 1.985 or 2.11 m (DIN 18101), double ones twice the width; old
-// and narrow ones are a little off these.
-constexpr double min_door_width = 0.55;
-constexpr double max_door_width = 2.3;
-constexpr double min_door_height = 1.8;
-constexpr double max_door_height = 2.5;
-constexpr double usual_door_height = 2.0;
 /// m. Of a door as high as it was seen, where its lintel was not: a scanner whose rays rise by 15
 /// degrees sees so high at 2 m.
 constexpr double min_seen_door_height = 1.5;
-constexpr double max_leaf_width = 1.3;
-/// m. The widest single leaf of DIN 18101; the hole in its frame is no wider.
-constexpr double widest_usual_leaf = 1.11;
-/// m. Thresholds, skirtings and what lies on the floor.
-constexpr double floor_reach = 0.25;
 /// m. DIN 18040 allows thresholds of 2 cm; what is higher, in the plane of the wall, is a sill.
 constexpr double thickest_threshold = 0.05;
 /// m. Sills of windows are higher (0.8, in attics and old houses 0.6).
@@ -53,6 +42,12 @@ constexpr double unglazed = 0.1;
 constexpr double pane_lost = 0.25;
 /// m. Casings are no wider than two cells of this.
 constexpr double flat_door_cell = 0.05;
+/// Shares of a hole: of rays that never came back, and of those that passed, which glass needs.
+constexpr double min_lost = 0.08;
+constexpr double min_through = 0.1;
+/// Share of a hole in which something was seen, and of that which lies at one depth, of leaves.
+constexpr double min_leaf_share = 0.6;
+constexpr double min_at_depth = 0.8;
 /// m. Panes of doors: above a bottom rail, between stiles.
 constexpr double max_rail = 0.35;
 constexpr double min_glazing_height = 1.3;
@@ -76,15 +71,67 @@ void set_depths(WallOpening& opening, const HoleEvidence& evidence) {
     opening.depth = opening.frame_depth + (sunk > 0.01 && sunk < 0.1 ? sunk : usual_sinking);
 }
 
-/// An upright patch: m along its own level direction and along up.
-struct LeafExtent {
-    Vector3d along = Vector3d::UnitX();
-    double across = 0.0;  ///< m along its normal
-    double start = 0.0;
-    double end = 0.0;
-    double bottom = 0.0;
-    double top = 0.0;
+/// Whether enough was seen of a hole to say what it is.
+bool is_seen_enough(const HoleEvidence& evidence) {
+    constexpr double min_seen = 0.4;
+    // A part of a leaf, in one plane, says more than rays that passed.
+    constexpr double min_seen_of_leaf = 0.2;
+    const bool is_leaf_seen = evidence.opaque >= min_leaf_share &&
+                              evidence.at_depth >= min_at_depth &&
+                              evidence.seen >= min_seen_of_leaf;
+    return evidence.seen + evidence.lost >= min_seen || is_leaf_seen;
+}
+
+/// What the evidence says of a hole, before it is known what it is.
+struct HoleSigns {
+    double above_floor = 0.0;     ///< m
+    bool is_guess = false;        ///< nobody knows whether rays passed
+    bool is_closed = false;       ///< by a leaf, or the stiles and rails of a glazed one
+    bool shows_outdoors = false;  ///< most of the rays that met it end there
+    bool is_pane = false;         ///< it shows or swallows what is behind it
+    bool is_on_floor = false;
 };
+
+HoleSigns read_signs(const HoleEvidence& evidence, const WallRelief& relief, double above_floor) {
+    HoleSigns signs;
+    signs.above_floor = above_floor;
+    signs.is_guess = !relief.has_rays && evidence.through_share >= 0.5;
+    // What was seen in the hole lies in one plane.
+    constexpr double min_frame_share = 0.25;
+    signs.is_closed = (evidence.opaque >= min_leaf_share && evidence.at_depth >= 0.6) ||
+                      (evidence.opaque >= min_frame_share && evidence.at_depth >= min_at_depth);
+    signs.shows_outdoors = evidence.outdoors >= 0.5;
+    signs.is_pane = signs.shows_outdoors || evidence.lost >= pane_lost;
+    // Of a hole that begins so low: wall below it is a sill, or the bottom rail of a glazed leaf.
+    // It is told from a leaf by lying clearly before what was seen in the hole.
+    constexpr double min_sill = 0.9;
+    const bool has_sill = evidence.rim_of(HoleSide::bottom).value_or(0.0) >= min_sill &&
+                          evidence.depth >= 2.0 * relief.tolerance;
+    // Scanners whose rays fall by few degrees see nothing closely above the floor.
+    if (has_sill)
+        signs.is_on_floor = above_floor <= thickest_threshold;
+    else if (evidence.rim_of(HoleSide::bottom))
+        signs.is_on_floor = above_floor <= floor_reach;
+    else
+        signs.is_on_floor = above_floor <= unseen_reach && !signs.is_pane;
+    return signs;
+}
+
+bool is_of_door_size(double width, double height) {
+    return width >= min_door_width && width <= max_door_width && height >= min_door_height &&
+           height <= max_door_height;
+}
+
+/// The pane of a leaf whose rails lie in the plane of the wall.
+void make_glazed_door(double floor_height, WallOpening& opening) {
+    opening.hole = opening.hole.grown(usual_rail, 0.0, usual_rail);
+    opening.hole.bottom = floor_height;
+    opening.frame_width = casing_width;
+    opening.rule = "pane of a door's height in the wall, indoors behind it";
+    opening.is_pane = true;
+    opening.depth = 0.02;
+    opening.confidence = 0.7;
+}
 
 /// What was found in one wall.
 struct OpenedWall {
@@ -99,16 +146,13 @@ class OpeningFinder {
                   const Eigen::Matrix3d& room_from_map, double point_spacing)
         : map_(map),
           sample_(sample),
-          patches_(patches),
           surfaces_(surfaces),
           room_from_map_(room_from_map),
           up_(room_from_map.row(2).transpose()),
           // Two points to a cell and side, and no finer than frames are wide.
           cell_size_(std::clamp(2.0 * point_spacing, 0.04, 0.12)),
-          mirror_test_(rays, sample) {
-        for (const PlanarPatch& patch : patches_)
-            extents_.push_back(is_upright(patch) ? extent_of(patch) : LeafExtent{});
-    }
+          mirror_test_(rays, sample),
+          leaves_(sample, patches, up_) {}
 
     OpenedWall look_at(std::size_t storey, std::size_t face) const;
 
@@ -116,24 +160,22 @@ class OpeningFinder {
     const StoreyLayout& layout(std::size_t storey) const { return surfaces_.storeys[storey]; }
     std::optional<WallOpening> judge(std::size_t storey, std::size_t face, const WallRelief& relief,
                                      const CellRectangle& hole) const;
+    void judge_way(const HoleEvidence& evidence, const HoleSigns& signs, const WallRelief& relief,
+                   const CellRectangle& cells, WallOpening& opening) const;
+    void judge_open_way(WallOpening& opening) const;
+    bool judge_window(const HoleEvidence& evidence, const HoleSigns& signs,
+                      const WallRelief& relief, const CellRectangle& cells,
+                      WallOpening& opening) const;
     std::int32_t room_behind(const StoreyLayout& layout, const WallFace& face,
                              const WallRectangle& hole) const;
     bool is_indoors_behind(const StoreyLayout& layout, const WallFace& face,
                            const WallRectangle& hole) const;
-    /// Leaves hang plumb.
-    bool is_upright(const PlanarPatch& patch) const {
-        return std::abs(patch.plane.normal.dot(up_)) <= std::sin(radians(8.0));
-    }
     bool is_mirror(const WallFace& face, const WallRectangle& hole) const {
         constexpr double min_share = 0.5;
         return mirror_test_.share_of_images({face.plane, face.along, up_, hole}, max_wall_depth) >=
                min_share;
     }
     WallFace reach_to_corners(const StoreyLayout& rooms, const WallFace& face) const;
-    LeafExtent extent_of(const PlanarPatch& patch) const;
-    void widen_to_hinge(const WallFace& face, WallRectangle& hole) const;
-    std::vector<OpenLeafSide> find_open_leaves(const WallFace& face, const WallRectangle& hole,
-                                               double thickness) const;
     std::optional<double> thickness_at(const StoreyLayout& layout, const WallFace& face,
                                        const WallRectangle& hole) const;
     void add_flat_doors(std::size_t storey, std::size_t face, const WallRelief& relief,
@@ -144,13 +186,12 @@ class OpeningFinder {
 
     const ScanMap& map_;
     const SurfaceSample& sample_;
-    std::span<const PlanarPatch> patches_;
     const RoomSurfaces& surfaces_;
     Eigen::Matrix3d room_from_map_;
     Vector3d up_;
     double cell_size_;
     MirrorTest mirror_test_;
-    std::vector<LeafExtent> extents_;  ///< per patch; those of upright ones alone mean something
+    OpenLeafFinder leaves_;
 };
 
 std::int32_t OpeningFinder::room_behind(const StoreyLayout& layout, const WallFace& face,
@@ -195,99 +236,98 @@ std::optional<double> OpeningFinder::thickness_at(const StoreyLayout& layout, co
     return thickness;
 }
 
-LeafExtent OpeningFinder::extent_of(const PlanarPatch& patch) const {
-    constexpr double infinity = std::numeric_limits<double>::infinity();
-    LeafExtent extent;
-    extent.along = up_.cross(patch.plane.normal).normalized();
-    extent.across = patch.plane.normal.dot(patch.centroid);
-    extent.start = extent.bottom = infinity;
-    extent.end = extent.top = -infinity;
-    for (const std::uint32_t voxel : patch.points) {
-        const Vector3d point = sample_.cloud.positions[voxel].cast<double>();
-        extent.bottom = std::min(extent.bottom, point.dot(up_));
-        extent.top = std::max(extent.top, point.dot(up_));
-        extent.start = std::min(extent.start, point.dot(extent.along));
-        extent.end = std::max(extent.end, point.dot(extent.along));
+/// What fills a hole of a door's size on the floor.
+void OpeningFinder::judge_way(const HoleEvidence& evidence, const HoleSigns& signs,
+                              const WallRelief& relief, const CellRectangle& cells,
+                              WallOpening& opening) const {
+    const StoreyLayout& rooms = layout(opening.storey);
+    const bool is_indoors = opening.room_behind != no_room ||
+                            (!signs.shows_outdoors &&
+                             is_indoors_behind(rooms, rooms.faces[opening.face], opening.hole));
+    opening.hole.bottom = rooms.floor_height;
+    opening.frame_width = casing_width;
+    const bool is_glazed = evidence.lost >= min_lost ||
+                           (relief.has_rays && evidence.through_share >= 0.3) ||
+                           (signs.shows_outdoors && evidence.opaque <= 1.0 - min_outdoors);
+    if (signs.is_closed && (is_indoors || !is_glazed || !signs.is_pane)) {
+        opening.rule = "leaf of a door's size in the wall, on the floor";
+        opening.depth = evidence.depth;
+        opening.confidence = 0.9;
+    } else if (!is_indoors && is_glazed && signs.is_pane) {
+        // A door to a room that was not seen otherwise shows it.
+        opening.type = OpeningType::window;
+        opening.rule = "glazed hole in the wall down to the floor, nothing indoors behind it";
+        set_depths(opening, evidence);
+        opening.frame_width = measure_frame(relief, cells).value_or(usual_window_frame);
+        opening.confidence = 0.7;
+    } else {
+        judge_open_way(opening);
     }
-    return extent;
 }
 
-/// What shows of leaves that stand open in a wall of a thickness, the one that fits the hole best
-/// first: upright patches, as wide and high as the hole, with one upright edge at a side of it. The
-/// lining of that side, as deep as the wall, may go on in the leaf's plane.
-std::vector<OpenLeafSide> OpeningFinder::find_open_leaves(const WallFace& face,
-                                                          const WallRectangle& hole,
-                                                          double thickness) const {
-    constexpr double max_hinge_gap = 0.25;
-    constexpr double max_above = 0.2;  // m: casings are to 0.1 wide
-    constexpr double edge_error = 0.05;
-    std::vector<OpenLeafSide> sides;
-    // Of two leaves each has half of the hole, and a part of a leaf may be hidden.
-    const double widest = std::min(hole.width(), max_leaf_width);
-    const double min_width = (hole.width() > widest_usual_leaf ? 0.4 : 0.6) * widest;
-    const double max_width = hole.width() + 3.0 * edge_error;
-    for (std::uint32_t number = 0; number < patches_.size(); ++number) {
-        const PlanarPatch& patch = patches_[number];
-        if (!is_upright(patch)) continue;
-        const Vector3d middle = place(face, 0.5 * (hole.start + hole.end), patch.centroid.dot(up_));
-        if ((patch.centroid - middle).norm() > hole.width() + 0.3) continue;
-        // What lies across the hole in the depth of the wall, along its rims, would close it.
-        constexpr double slack = 0.15;
-        const double depth = -face.plane.signed_distance(patch.centroid);
-        const double position = patch.centroid.dot(face.along);
-        const bool is_across = position > hole.start && position < hole.end;
-        if (std::abs(patch.plane.normal.dot(face.plane.normal)) > std::cos(radians(4.0)) &&
-            depth > -slack && depth < (is_across ? thickness + slack : slack)) {
-            continue;
-        }
-        const LeafExtent& extent = extents_[number];
-        const double width = extent.end - extent.start;
-        if (extent.top > hole.top + max_above || extent.top < hole.top - 0.4) continue;
-        if (extent.top - extent.bottom < 0.5) continue;
-        const auto in_plan = [&](double position) {
-            const Vector3d edge = position * extent.along + extent.across * patch.plane.normal;
-            return Vector2d(edge.dot(face.along), -face.plane.signed_distance(edge));
-        };
-        // One end of the leaf is at the hinge.
-        double nearest = max_hinge_gap;
-        std::optional<OpenLeafSide> leaf;
-        for (const bool is_start : {true, false}) {
-            const Vector2d edge = in_plan(is_start ? extent.start : extent.end);
-            const Vector2d free_edge = in_plan(is_start ? extent.end : extent.start);
-            for (const double side : {hole.start, hole.end}) {
-                const double gap =
-                    (edge - Vector2d(side, std::clamp(edge.y(), 0.0, thickness))).norm();
-                // From the hinges where they belong, at the face that the leaf opens to.
-                const Vector2d hinge(side, free_edge.y() < 0.5 * thickness ? 0.0 : thickness);
-                const double reach = std::min((free_edge - hinge).norm(), width);
-                if (gap > nearest || reach < min_width || reach > max_width) continue;
-                nearest = gap;
-                const double share = std::min(1.0, (hole.width() + edge_error) / width);
-                leaf = {number, free_edge + share * (edge - free_edge), free_edge};
-            }
-        }
-        if (leaf) sides.push_back(*leaf);
+/// A door whose leaf stands open, or a way without one.
+void OpeningFinder::judge_open_way(WallOpening& opening) const {
+    const StoreyLayout& rooms = layout(opening.storey);
+    const WallFace& face = rooms.faces[opening.face];
+    const double thickness = thickness_at(rooms, face, opening.hole).value_or(usual_thickness);
+    opening.open_leaves = leaves_.find(face, opening.hole, thickness);
+    if (!fill_hole(opening.open_leaves, opening.hole)) opening.open_leaves.clear();
+    opening.is_open = true;
+    if (!opening.open_leaves.empty()) {
+        opening.depth = std::clamp(opening.open_leaves.front().hinge.y(), 0.0, thickness);
+        opening.rule = "hole of a door's size in the wall and its open leaf";
+        opening.confidence = 0.85;
+        return;
     }
-    // Cupboards beside a door look like leaves.
-    const auto misfit = [&](const OpenLeafSide& side) {
-        return std::abs((side.free_edge - side.hinge).norm() - widest);
-    };
-    std::stable_sort(sides.begin(), sides.end(),
-                     [&](const auto& a, const auto& b) { return misfit(a) < misfit(b); });
-    return sides;
+    // Double doors are rarer than wide passages, and show a leaf more easily.
+    const bool is_wide = opening.hole.width() > widest_usual_leaf;
+    opening.depth = 0.5 * thickness;
+    opening.type = is_wide ? OpeningType::passage : OpeningType::door;
+    opening.rule = is_wide ? "hole in the wall down to the floor, wider than a leaf"
+                           : "hole of a door's size in the wall, on the floor";
+    opening.alternative =
+        is_wide ? "double door whose leaves were not seen" : "passage without a leaf";
+    opening.confidence = 0.6;
 }
 
-/// Whether leaves can close a hole: one that is as wide, or one at each side.
-bool fill_hole(std::span<const OpenLeafSide> leaves, const WallRectangle& hole) {
-    constexpr double min_share = 0.85;
-    bool is_at_start = false;
-    bool is_at_end = false;
-    for (const OpenLeafSide& leaf : leaves) {
-        if ((leaf.free_edge - leaf.hinge).norm() >= min_share * hole.width()) return true;
-        const bool is_left = leaf.hinge.x() < 0.5 * (hole.start + hole.end);
-        (is_left ? is_at_start : is_at_end) = true;
+/// Whether a hole above the floor, or a glazed one, is a window.
+bool OpeningFinder::judge_window(const HoleEvidence& evidence, const HoleSigns& signs,
+                                 const WallRelief& relief, const CellRectangle& cells,
+                                 WallOpening& opening) const {
+    const WallRectangle& hole = opening.hole;
+    if (hole.width() < min_window_side || hole.height() < min_window_side) return false;
+    if (signs.above_floor < 0.3 && hole.height() < 1.5) return false;
+    // A part of a door.
+    if (signs.is_on_floor && !signs.is_pane) return false;
+    // Panes let rays pass, or lose them, or lie deeper than the frame; the back of a niche does
+    // none of these. Where a niche's sides are seen aslant, they lie at all depths; a frame at one.
+    constexpr double min_sinking = 0.02;
+    constexpr double min_rim_at_depth = 0.25;
+    const bool is_sunk =
+        evidence.sunk() >= min_sinking && evidence.depths.rim_at_depth >= min_rim_at_depth;
+    const bool is_glazed = evidence.lost >= min_lost || is_sunk || signs.shows_outdoors ||
+                           signs.is_guess ||
+                           (relief.has_rays && evidence.through_share >= min_through);
+    // A mirror shows what lies behind it without a frame in the wall, and as often as not where
+    // another room is; but never the ground outdoors, and nothing where no ray passes.
+    constexpr double min_framed = 0.25;
+    const bool may_be_mirror = !signs.shows_outdoors && evidence.through_share >= min_through;
+    if (!signs.is_guess && !signs.shows_outdoors && evidence.framed < min_framed) return false;
+    const StoreyLayout& rooms = layout(opening.storey);
+    const WallFace& face = rooms.faces[opening.face];
+    if ((signs.is_guess || may_be_mirror) &&
+        (is_indoors_behind(rooms, face, hole) || is_mirror(face, hole))) {
+        return false;
     }
-    return hole.width() <= widest_usual_leaf ? !leaves.empty() : is_at_start && is_at_end;
+    // A blind lies in one plane.
+    if (!is_glazed && evidence.at_depth < 0.5) return false;
+    opening.type = OpeningType::window;
+    set_depths(opening, evidence);
+    opening.frame_width = measure_frame(relief, cells).value_or(usual_window_frame);
+    opening.rule = is_glazed ? "glazed hole in the wall, above the floor"
+                             : "hole in the wall like a window of the same storey";
+    opening.confidence = is_glazed ? 0.85 : unglazed;
+    return true;
 }
 
 std::optional<WallOpening> OpeningFinder::judge(std::size_t storey, std::size_t number,
@@ -295,176 +335,39 @@ std::optional<WallOpening> OpeningFinder::judge(std::size_t storey, std::size_t 
                                                 const CellRectangle& cells) const {
     const StoreyLayout& rooms = layout(storey);
     const WallFace& face = rooms.faces[number];
+    const HoleEvidence evidence = look_into(relief, cells);
+    if (!is_seen_enough(evidence)) return std::nullopt;
     WallOpening opening;
     opening.storey = storey;
     opening.face = number;
     opening.hole = measure_edges(relief, cells);
-    WallRectangle& hole = opening.hole;
-    const HoleEvidence evidence = look_into(relief, cells);
     opening.coverage = evidence.seen;
     opening.hidden = evidence.hidden;
-    constexpr double min_seen = 0.4;
-    // A part of a leaf, in one plane, says more than rays that passed.
-    constexpr double min_seen_of_leaf = 0.2;
-    constexpr double min_at_depth = 0.8;
-    constexpr double min_lost = 0.08;
-    constexpr double min_through = 0.1;
-    const bool is_leaf_seen = evidence.opaque >= 0.6 && evidence.at_depth >= min_at_depth &&
-                              evidence.seen >= min_seen_of_leaf;
-    if (evidence.seen + evidence.lost < min_seen && !is_leaf_seen) return std::nullopt;
-    const bool stands_on_floor = hole.bottom - rooms.floor_height <= max_rail;
-    if (!is_framed_by_wall(evidence, stands_on_floor)) return std::nullopt;
+    WallRectangle& hole = opening.hole;
+    const HoleSigns signs = read_signs(evidence, relief, hole.bottom - rooms.floor_height);
+    if (!is_framed_by_wall(evidence, signs.above_floor <= max_rail)) return std::nullopt;
     // Without rays a hole is told from wall that nobody looked at by its lining.
     constexpr double min_lining = 0.5;
-    const bool is_guess = !relief.has_rays && evidence.through_share >= 0.5;
-    if (is_guess && evidence.lining < min_lining) return std::nullopt;
+    if (signs.is_guess && evidence.lining < min_lining) return std::nullopt;
     opening.room_behind = room_behind(rooms, face, hole);
-    const double above_floor = hole.bottom - rooms.floor_height;
-    // What was seen in the hole lies in one plane: a leaf, or the stiles and rails of a glazed one.
-    constexpr double min_frame_share = 0.25;
-    constexpr double min_sill = 0.9;
-    const bool is_closed =
-        (evidence.opaque >= 0.6 && evidence.at_depth >= 0.6) ||
-        (evidence.opaque >= min_frame_share && evidence.at_depth >= min_at_depth);
-    // Panes that show or swallow what is behind them.
-    const bool shows_outdoors = evidence.outdoors >= 0.5;
-    const bool is_pane = shows_outdoors || evidence.lost >= pane_lost;
-    // Of a hole that begins so low: wall below it is a sill, or the bottom rail of a glazed leaf.
-    // It is told from a leaf by lying clearly before what was seen in the hole.
-    const bool has_sill =
-        evidence.rim[static_cast<std::size_t>(HoleSide::bottom)].value_or(0.0) >= min_sill &&
-        evidence.depth >= 2.0 * relief.tolerance;
-    // Scanners whose rays fall by few degrees see nothing closely above the floor.
-    const bool is_bottom_seen =
-        evidence.rim[static_cast<std::size_t>(HoleSide::bottom)].has_value();
-    const bool is_on_floor = has_sill         ? above_floor <= thickest_threshold
-                             : is_bottom_seen ? above_floor <= floor_reach
-                                              : above_floor <= unseen_reach && !is_pane;
-    if (is_on_floor) {
-        widen_to_hinge(face, hole);
-        const double seen_height = hole.top - rooms.floor_height;
-        const bool is_lintel_seen =
-            evidence.rim[static_cast<std::size_t>(HoleSide::top)].has_value();
-        if (!is_lintel_seen && !is_pane && seen_height >= min_seen_door_height)
+    if (signs.is_on_floor) {
+        leaves_.widen_to_hinge(face, hole);
+        if (!evidence.rim_of(HoleSide::top) && !signs.is_pane &&
+            hole.top - rooms.floor_height >= min_seen_door_height)
             hole.top = std::max(hole.top, rooms.floor_height + usual_door_height);
-    }
-    const bool is_door_size = hole.width() >= min_door_width && hole.width() <= max_door_width &&
-                              hole.top - rooms.floor_height >= min_door_height &&
-                              hole.top - rooms.floor_height <= max_door_height;
-    if (is_on_floor && is_door_size) {
-        const bool is_indoors = opening.room_behind != no_room ||
-                                (!shows_outdoors && is_indoors_behind(rooms, face, hole));
-        hole.bottom = rooms.floor_height;
-        opening.frame_width = casing_width;
-        const bool is_glazed = evidence.lost >= min_lost ||
-                               (relief.has_rays && evidence.through_share >= 0.3) ||
-                               (shows_outdoors && evidence.opaque <= 1.0 - min_outdoors);
-        if (is_closed && (is_indoors || !is_glazed || !is_pane)) {
-            opening.rule = "leaf of a door's size in the wall, on the floor";
-            opening.depth = evidence.depth;
-            opening.confidence = 0.9;
+        if (is_of_door_size(hole.width(), hole.top - rooms.floor_height)) {
+            judge_way(evidence, signs, relief, cells, opening);
             return opening;
         }
-        // A door to a room that was not seen otherwise shows it.
-        if (!is_indoors && is_glazed && is_pane) {
-            opening.type = OpeningType::window;
-            opening.rule = "glazed hole in the wall down to the floor, nothing indoors behind it";
-            set_depths(opening, evidence);
-            opening.frame_width = measure_frame(relief, cells).value_or(usual_window_frame);
-            opening.confidence = 0.7;
-            return opening;
-        }
-        const double thickness = thickness_at(rooms, face, hole).value_or(usual_thickness);
-        opening.open_leaves = find_open_leaves(face, hole, thickness);
-        if (!fill_hole(opening.open_leaves, hole)) opening.open_leaves.clear();
-        opening.is_open = true;
-        opening.depth = opening.open_leaves.empty()
-                            ? 0.5 * thickness
-                            : std::clamp(opening.open_leaves.front().hinge.y(), 0.0, thickness);
-        opening.rule = "hole of a door's size in the wall and its open leaf";
-        opening.confidence = 0.85;
-        if (opening.open_leaves.empty()) {
-            // Double doors are rarer than wide passages, and show a leaf more easily.
-            const bool is_wide = hole.width() > widest_usual_leaf;
-            opening.type = is_wide ? OpeningType::passage : OpeningType::door;
-            opening.rule = is_wide ? "hole in the wall down to the floor, wider than a leaf"
-                                   : "hole of a door's size in the wall, on the floor";
-            opening.alternative =
-                is_wide ? "double door whose leaves were not seen" : "passage without a leaf";
-            opening.confidence = 0.6;
-        }
+    }
+    if (signs.above_floor <= max_rail && hole.height() >= min_glazing_height &&
+        hole.width() >= min_glazing_width && hole.width() <= max_leaf_width &&
+        !signs.shows_outdoors && is_indoors_behind(rooms, face, hole)) {
+        make_glazed_door(rooms.floor_height, opening);
         return opening;
     }
-    if (above_floor <= max_rail && hole.height() >= min_glazing_height &&
-        hole.width() >= min_glazing_width && hole.width() <= max_leaf_width && !shows_outdoors &&
-        is_indoors_behind(rooms, face, hole)) {
-        // The pane of a leaf whose rails lie in the plane of the wall.
-        hole = hole.grown(usual_rail, 0.0, usual_rail);
-        hole.bottom = rooms.floor_height;
-        opening.frame_width = casing_width;
-        opening.rule = "pane of a door's height in the wall, indoors behind it";
-        opening.is_pane = true;
-        opening.depth = 0.02;
-        opening.confidence = 0.7;
-        return opening;
-    }
-    if (hole.width() < min_window_side || hole.height() < min_window_side) return std::nullopt;
-    if (above_floor < 0.3 && hole.height() < 1.5) return std::nullopt;
-    // A part of a door.
-    if (is_on_floor && !is_pane) return std::nullopt;
-    // Panes let rays pass, or lose them, or lie deeper than the frame; the back of a niche does
-    // none of these.
-    // Where a niche's sides are seen aslant, they lie at all depths; a frame at one.
-    constexpr double min_sinking = 0.02;
-    constexpr double min_rim_at_depth = 0.25;
-    const bool is_sunk =
-        evidence.sunk() >= min_sinking && evidence.depths.rim_at_depth >= min_rim_at_depth;
-    const bool is_glazed = evidence.lost >= min_lost || is_sunk || shows_outdoors || is_guess ||
-                           (relief.has_rays && evidence.through_share >= min_through);
-    // A mirror shows what lies behind it without a frame in the wall, and as often as not where
-    // another room is; but never the ground outdoors, and nothing where no ray passes.
-    constexpr double min_framed = 0.25;
-    const bool may_be_mirror = !shows_outdoors && evidence.through_share >= min_through;
-    if (!is_guess && !shows_outdoors && evidence.framed < min_framed) return std::nullopt;
-    if ((is_guess || may_be_mirror) &&
-        (is_indoors_behind(rooms, face, hole) || is_mirror(face, hole))) {
-        return std::nullopt;
-    }
-    // A blind lies in one plane.
-    if (!is_glazed && evidence.at_depth < 0.5) return std::nullopt;
-    opening.type = OpeningType::window;
-    set_depths(opening, evidence);
-    opening.frame_width = measure_frame(relief, cells).value_or(usual_window_frame);
-    opening.rule = is_glazed ? "glazed hole in the wall, above the floor"
-                             : "hole in the wall like a window of the same storey";
-    opening.confidence = is_glazed ? 0.85 : unglazed;
+    if (!judge_window(evidence, signs, relief, cells, opening)) return std::nullopt;
     return opening;
-}
-
-/// A leaf that stands ajar hides a part of its hole: that reaches to the hinge then.
-void OpeningFinder::widen_to_hinge(const WallFace& face, WallRectangle& hole) const {
-    if (hole.width() >= max_leaf_width || hole.height() < min_door_height - floor_reach) return;
-    for (std::size_t number = 0; number < patches_.size(); ++number) {
-        const PlanarPatch& patch = patches_[number];
-        if (!is_upright(patch)) continue;
-        if (std::abs(patch.plane.normal.dot(face.plane.normal)) > std::cos(radians(4.0))) continue;
-        const LeafExtent& leaf = extents_[number];
-        const double width = leaf.end - leaf.start;
-        if (width < min_door_width || width > max_leaf_width) continue;
-        // A scanner beside it does not see its top.
-        if (leaf.top > hole.top + 0.15 || leaf.top < hole.top - 0.4) continue;
-        if (leaf.top - leaf.bottom < 1.2) continue;
-        for (const double end : {leaf.start, leaf.end}) {
-            const Vector3d hinge = end * leaf.along + leaf.across * patch.plane.normal;
-            if (std::abs(face.plane.signed_distance(hinge)) > 0.2) continue;
-            const double position = hinge.dot(face.along);
-            constexpr double slack = 0.15;
-            if (position < hole.start && std::abs(hole.end - position - width) <= slack)
-                hole.start = position;
-            if (position > hole.end && std::abs(position - hole.start - width) <= slack)
-                hole.end = position;
-        }
-    }
 }
 
 /// Closed leaves nearly in the plane of their wall: rectangles of a door's size, on the floor, that

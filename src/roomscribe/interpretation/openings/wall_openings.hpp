@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "roomscribe/core/context.hpp"
+#include "roomscribe/interpretation/openings/open_leaves.hpp"
 #include "roomscribe/interpretation/openings/wall_relief.hpp"
 #include "roomscribe/interpretation/rooms/room_surfaces.hpp"
 #include "roomscribe/model/scene.hpp"
@@ -22,14 +23,6 @@ enum class OpeningType : std::uint8_t {
     door,
     window,
     passage,  ///< a way without a leaf: a component of kind `opening`
-};
-
-/// What an upright patch shows of a leaf that stands open. Places: m along the wall's face, m
-/// behind it.
-struct OpenLeafSide {
-    std::uint32_t patch = 0;
-    Eigen::Vector2d hinge = Eigen::Vector2d::Zero();
-    Eigen::Vector2d free_edge = Eigen::Vector2d::Zero();
 };
 
 /// A hole in a wall, and what fills it.
