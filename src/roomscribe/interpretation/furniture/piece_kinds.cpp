@@ -285,7 +285,7 @@ PieceVerdict judge_piece(const PieceForm& form) {
     const PieceVerdict verdict = judge_standing(form);
     if (verdict.confidence >= min_piece_confidence || !is_of_furniture_size(form))
         return verdict.confidence >= min_piece_confidence ? verdict : PieceVerdict{};
-    constexpr double unsure = 0.4;  // half of what is so over simulated rooms is furniture
+    constexpr double unsure = 0.4;  // cartons are as flat-sided and as large
     return furniture("other", "flat-sided thing of furniture's size", unsure);
 }
 
