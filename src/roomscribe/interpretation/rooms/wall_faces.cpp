@@ -31,7 +31,7 @@ constexpr double foot_reach = 0.3;
 /// m. Narrower faces are reveals and the sides of posts.
 constexpr double min_face_width = 0.35;
 /// m. Wardrobes, shafts and columns are no deeper: what is narrower is more likely a side of these
-/// than a wall, unless it was seen from floor to ceiling or is a piece of a longer wall.
+/// than a wall, unless it was seen up to the ceiling or is a piece of a longer wall.
 constexpr double min_wall_width = 0.7;
 /// m. Leaves and panes lie no deeper in their wall.
 constexpr double max_inset = 0.3;
@@ -406,8 +406,7 @@ std::vector<WallFace> FaceFinder::take() {
     std::stable_sort(walls.begin(), walls.end(), by_area);
     std::vector<WallFace> kept;
     for (const WallFace& face : walls) {
-        const bool is_whole = face.reaches_floor && face.reaches_ceiling;
-        if (face.width() < min_wall_width && !is_whole) continue;
+        if (face.width() < min_wall_width && !face.reaches_ceiling) continue;
         const bool has_wall = std::any_of(walls.begin(), walls.end(), [&](const WallFace& wall) {
             return belongs_to(face, wall) || is_leaf_of(face, wall);
         });
