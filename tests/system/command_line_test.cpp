@@ -91,7 +91,8 @@ TEST(CommandLine, ShowsStageRateAndTimeLeftOnATerminal) {
     const std::filesystem::path script = "/usr/bin/script";
     if (!std::filesystem::exists(script)) GTEST_SKIP() << "script(1) is not installed";
     const TemporaryFolder folder;
-    std::string command = ROOMSCRIBE_PROGRAM " run -o " + (folder / "out").string();
+    // One thread: a rate is shown of stages that last for a second or so.
+    std::string command = ROOMSCRIBE_PROGRAM " run --threads 1 -o " + (folder / "out").string();
     for (const std::string& scan : write_room_scans(folder.path(), 3))
         command += " " + scan;
     const ProgramResult result = run_program(script, {"-qec", command, "/dev/null"});
