@@ -3,13 +3,7 @@
 
 #include <algorithm>
 
-#if defined(__has_feature)
-#define ROOMSCRIBE_HAS_FEATURE(feature) __has_feature(feature)
-#else
-#define ROOMSCRIBE_HAS_FEATURE(feature) 0
-#endif
-
-#if ROOMSCRIBE_HAS_FEATURE(thread_sanitizer)
+#ifdef ROOMSCRIBE_OWN_THREADS
 #include <atomic>
 #include <exception>
 #include <mutex>
@@ -22,7 +16,7 @@
 namespace roomscribe {
 namespace {
 
-#if ROOMSCRIBE_HAS_FEATURE(thread_sanitizer)
+#ifdef ROOMSCRIBE_OWN_THREADS
 /// ThreadSanitizer cannot look into TBB and would take all that it does for races: threads of our
 /// own.
 void for_each_chunk(int num_threads, std::size_t num_chunks,
