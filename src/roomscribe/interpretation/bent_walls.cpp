@@ -28,17 +28,17 @@ bool may_bend(Label label) {
     return label == Label::ceiling || label == Label::wall;
 }
 
-/// Per voxel the wall that most of its labelled points belong to, or `none`; and whether it may
-/// still be given to one: none of its points has a label.
+/// Per voxel the wall or ceiling (of RoomSurfaces::surfaces) that its labelled points belong to, or
+/// `none`; and whether it may still be given to one: none of its points has a label.
 struct VoxelLabels {
-    std::vector<std::int32_t> wall;
+    std::vector<std::int32_t> surface;
     std::vector<bool> is_free;
 };
 
-VoxelLabels label_voxels(const SurfaceSample& sample, const std::vector<std::int32_t>& wall_of,
+VoxelLabels label_voxels(const SurfaceSample& sample, const std::vector<std::int32_t>& surface_of,
                          const PointLabels& labels) {
     VoxelLabels voxels;
-    voxels.wall.assign(sample.cloud.size(), none);
+    voxels.surface.assign(sample.cloud.size(), none);
     voxels.is_free.assign(sample.cloud.size(), true);
     for (std::size_t i = 0; i < labels.labels.size(); ++i) {
         const std::uint32_t voxel = sample.voxel_of_point[i];
@@ -46,8 +46,8 @@ VoxelLabels label_voxels(const SurfaceSample& sample, const std::vector<std::int
         voxels.is_free[voxel] = false;
         const std::int32_t instance = labels.instances[i];
         if (may_bend(labels.labels[i]) && instance >= 0 &&
-            static_cast<std::size_t>(instance) < wall_of.size())
-            voxels.wall[voxel] = wall_of[static_cast<std::size_t>(instance)];
+            static_cast<std::size_t>(instance) < surface_of.size())
+            voxels.surface[voxel] = surface_of[static_cast<std::size_t>(instance)];
     }
     return voxels;
 }
@@ -56,61 +56,62 @@ VoxelLabels label_voxels(const SurfaceSample& sample, const std::vector<std::int
 
 void continue_bent_walls(const SurfaceSample& sample, const RoomSurfaces& surfaces,
                          PointLabels& labels, const Context& context) {
-    std::vector<std::int32_t> wall_of;  // by instance
+    std::vector<std::int32_t> surface_of;  // by instance
     for (std::size_t s = 0; s < surfaces.surfaces.size(); ++s) {
         const Component& component = surfaces.surfaces[s].component;
         if (component.instance < 0) continue;
         const auto instance = static_cast<std::size_t>(component.instance);
-        if (instance >= wall_of.size()) wall_of.resize(instance + 1, none);
-        wall_of[instance] = static_cast<std::int32_t>(s);
+        if (instance >= surface_of.size()) surface_of.resize(instance + 1, none);
+        surface_of[instance] = static_cast<std::int32_t>(s);
     }
-    if (wall_of.empty() || sample.cloud.empty()) return;
-    VoxelLabels voxels = label_voxels(sample, wall_of, labels);
+    if (surface_of.empty() || sample.cloud.empty()) return;
+    VoxelLabels voxels = label_voxels(sample, surface_of, labels);
     for (std::size_t voxel = 0; voxel < surfaces.is_hung.size(); ++voxel)
         voxels.is_free[voxel] = voxels.is_free[voxel] && !surfaces.is_hung[voxel];
     const std::vector<Eigen::Vector3f>& positions = sample.cloud.positions;
     const SearchTree tree(positions);
     const NeighborGraph graph(positions, tree, num_neighbors, context);
-    const auto distance = [&](std::uint32_t voxel, std::int32_t wall) {
-        return surfaces.surfaces[static_cast<std::size_t>(wall)].plane.signed_distance(
+    const auto distance = [&](std::uint32_t voxel, std::int32_t surface) {
+        return surfaces.surfaces[static_cast<std::size_t>(surface)].plane.signed_distance(
             positions[voxel].cast<double>());
     };
-    const auto goes_on = [&](std::uint32_t from, std::uint32_t to, std::int32_t wall) {
-        const Plane& plane = surfaces.surfaces[static_cast<std::size_t>(wall)].plane;
+    const auto goes_on = [&](std::uint32_t from, std::uint32_t to, std::int32_t surface) {
+        const Plane& plane = surfaces.surfaces[static_cast<std::size_t>(surface)].plane;
         const double turn = std::abs(sample.cloud.normals[to].cast<double>().dot(plane.normal));
         const double length = static_cast<double>((positions[to] - positions[from]).norm());
-        const double step = std::abs(distance(to, wall) - distance(from, wall));
+        const double step = std::abs(distance(to, surface) - distance(from, surface));
         return turn >= std::cos(max_turn) && length <= max_gap * sample.spacing &&
                step <= length * std::tan(max_slope) + 0.5 * sample.noise &&
-               std::abs(distance(to, wall)) <= max_bend * sample.tolerance;
+               std::abs(distance(to, surface)) <= max_bend * sample.tolerance;
     };
-    // In rounds, and of several walls the first: the order of the voxels does not matter.
+    // In rounds, and of several surfaces the first: the order of the voxels does not matter.
     std::vector<std::uint32_t> rim;
     for (std::uint32_t voxel = 0; voxel < positions.size(); ++voxel) {
-        if (voxels.wall[voxel] != none) rim.push_back(voxel);
+        if (voxels.surface[voxel] != none) rim.push_back(voxel);
     }
     while (!rim.empty()) {
         std::map<std::uint32_t, std::int32_t> taken;
         for (const std::uint32_t voxel : rim) {
             for (const std::uint32_t other : graph.neighbors(voxel)) {
-                if (!voxels.is_free[other] || !goes_on(voxel, other, voxels.wall[voxel])) continue;
-                const auto [entry, is_new] = taken.try_emplace(other, voxels.wall[voxel]);
-                if (!is_new) entry->second = std::min(entry->second, voxels.wall[voxel]);
+                if (!voxels.is_free[other] || !goes_on(voxel, other, voxels.surface[voxel]))
+                    continue;
+                const auto [entry, is_new] = taken.try_emplace(other, voxels.surface[voxel]);
+                if (!is_new) entry->second = std::min(entry->second, voxels.surface[voxel]);
             }
         }
         rim.clear();
-        for (const auto& [voxel, wall] : taken) {
+        for (const auto& [voxel, surface] : taken) {
             voxels.is_free[voxel] = false;
-            voxels.wall[voxel] = wall;
+            voxels.surface[voxel] = surface;
             rim.push_back(voxel);
         }
     }
     for (std::size_t i = 0; i < labels.labels.size(); ++i) {
         const std::uint32_t voxel = sample.voxel_of_point[i];
         if (voxel == no_voxel || labels.labels[i] != Label::unknown) continue;
-        if (voxels.wall[voxel] == none) continue;
+        if (voxels.surface[voxel] == none) continue;
         const Component& component =
-            surfaces.surfaces[static_cast<std::size_t>(voxels.wall[voxel])].component;
+            surfaces.surfaces[static_cast<std::size_t>(voxels.surface[voxel])].component;
         labels.labels[i] = component.label;
         labels.instances[i] = component.instance;
         labels.confidences[i] = 0.5F * static_cast<float>(component.confidence);

@@ -102,6 +102,7 @@ PieceForm measure_form(const FurnitureVoxels& all, std::span<const LevelSlab> sl
     form.num_slabs = draft.slabs.size();
     if (draft.voxels.empty()) return form;
     std::vector<double> heights;
+    std::vector<double> noise;
     std::vector<Eigen::Vector2d> places;
     std::size_t num_level = 0;
     std::size_t num_upright = 0;
@@ -110,6 +111,7 @@ PieceForm measure_form(const FurnitureVoxels& all, std::span<const LevelSlab> sl
     for (const std::uint32_t i : draft.voxels) {
         const FurnitureVoxel& voxel = all.voxels[i];
         heights.push_back(voxel.height);
+        noise.push_back(voxel.noise);
         places.emplace_back(voxel.place.head<2>());
         num_level += voxel.is_level ? 1U : 0U;
         num_upright += voxel.is_upright ? 1U : 0U;
@@ -126,9 +128,6 @@ PieceForm measure_form(const FurnitureVoxels& all, std::span<const LevelSlab> sl
     form.top = quantile(heights, 0.99);
     form.front_top = front_top(all, draft.voxels);
     const FurnitureVoxel& some = all.voxels[draft.voxels.front()];
-    std::vector<double> noise;
-    for (const std::uint32_t i : draft.voxels)
-        noise.push_back(all.voxels[i].noise);
     form.blur = 4.0 * median(noise);  // two deviations on either side
     form.planar = share(num_planar);
     std::sort(of_patches.begin(), of_patches.end());

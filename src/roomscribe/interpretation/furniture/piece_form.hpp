@@ -37,6 +37,8 @@ struct PieceForm {
     std::size_t num_slabs = 0;
 };
 
+/// Measures a draft by its voxels and slabs, and the room and wall that it stands at. A draft
+/// without voxels has no size. Precondition: its voxels are of one room.
 PieceForm measure_form(const FurnitureVoxels& all, std::span<const LevelSlab> slabs,
                        const PieceDraft& draft, const RoomSurfaces& surfaces);
 

@@ -7,6 +7,8 @@
 #include <limits>
 #include <span>
 
+#include "roomscribe/interpretation/furniture/furnishing_sizes.hpp"
+
 namespace roomscribe {
 namespace {
 
@@ -256,12 +258,13 @@ PieceVerdict judge_standing(const PieceForm& form) {
     if (!has_level)
         return has_bottom || is_box_seen_above(form) ? judge_tall(form) : PieceVerdict{};
     // A screen on a low chest makes nothing tall of it.
-    constexpr double max_low = 0.66;
-    if (form.top >= min_tall + 0.05 && form.highest_slab > max_low) return judge_tall(form);
-    return best_fit(sizes_by_level,
-                    {form.seat, form.top - form.seat, form.rectangle.length, form.rectangle.width,
-                     form.closed, form.is_at_wall},
-                    form.seat > max_low ? "top of a table's or chest's height" : "seat or low top");
+    if (form.top >= min_tall + 0.05 && form.highest_slab > min_table_height)
+        return judge_tall(form);
+    return best_fit(
+        sizes_by_level,
+        {form.seat, form.top - form.seat, form.rectangle.length, form.rectangle.width, form.closed,
+         form.is_at_wall},
+        form.seat > min_table_height ? "top of a table's or chest's height" : "seat or low top");
 }
 
 /// What stands, is as large as furniture and flat-sided, whatever it is.
@@ -283,8 +286,8 @@ PieceVerdict judge_piece(const PieceForm& form) {
     if (form.depth > 0.0 && form.depth <= max_thin_depth) return judge_thin(form);
     if (form.bottom >= min_hanging_bottom) return judge_hanging(form);
     const PieceVerdict verdict = judge_standing(form);
-    if (verdict.confidence >= min_piece_confidence || !is_of_furniture_size(form))
-        return verdict.confidence >= min_piece_confidence ? verdict : PieceVerdict{};
+    if (verdict.confidence >= min_piece_confidence) return verdict;
+    if (!is_of_furniture_size(form)) return {};
     constexpr double unsure = 0.4;  // cartons are as flat-sided and as large
     return furniture("other", "flat-sided thing of furniture's size", unsure);
 }

@@ -66,13 +66,14 @@ class FlatDoorSearch {
 
   private:
     static constexpr double max_height = 0.05;  // m before the face
+    /// m. Usual leaves (DIN 18101: 0.61 to 1.11 by 1.985 or 2.11), with a cell or two of error:
+    /// narrower than what doors are that a hole shows (door_sizes.hpp).
     static constexpr double min_leaf_width = 0.6;
     static constexpr double max_flat_width = 1.15;
     static constexpr double min_leaf_height = 1.88;
     static constexpr double max_leaf_height = 2.2;
-    /// m. Twice what walls are out of true over 1 m and, for each metre more, over 4 m (DIN 18202,
-    /// table 3, line 7: 3 and 8 mm).
-    static constexpr double min_step = 0.006;
+    /// By which the least step grows with each metre beyond the first: twice what walls may be more
+    /// out of true over 4 m than over 1 m (8 and 3 mm, as for least_wall_step).
     static constexpr double min_step_per_metre = 0.0033;
     /// Standard errors of the difference of two strips; neighbouring cells err alike.
     static constexpr double min_errors = 3.0;
@@ -185,7 +186,7 @@ class FlatDoorSearch {
         if (!leaf) return std::nullopt;
         const std::array<Side, 3> sides = sides_of(door);
         const double width = (door.right - door.left) * relief_.cell_size;
-        const double least = min_step + min_step_per_metre * std::max(0.0, width - 1.0);
+        const double least = least_wall_step + min_step_per_metre * std::max(0.0, width - 1.0);
         // A scanner that cannot look up sees no lintel; of one that shows in part, casings on both
         // sides make up for it.
         const bool is_top_seen = sides[2].leaf && sides[2].wall;
@@ -197,14 +198,15 @@ class FlatDoorSearch {
             const Side& side = sides[i];
             if (!side.leaf || !side.wall) return std::nullopt;
             // What stands before what is beside it is wall between two doors.
-            if (side.leaf->mean() - side.wall->mean() >= 0.5 * min_step) return std::nullopt;
+            if (side.leaf->mean() - side.wall->mean() >= 0.5 * least_wall_step) return std::nullopt;
             const double depth = side.wall->mean() - side.leaf->mean();
             const bool is_flat = std::abs(side.leaf->mean() - leaf->mean()) <= max_bend * depth;
             lower = std::min(lower, is_flat ? -step(*side.leaf, *side.wall, least) : 0.0);
             height -= depth / static_cast<double>(num_sides);
-            cased = std::min(cased, side.casing ? std::min(step(*side.casing, *side.wall, min_step),
-                                                           step(*side.casing, *side.leaf, min_step))
-                                                : 0.0);
+            cased = std::min(cased, side.casing
+                                        ? std::min(step(*side.casing, *side.wall, least_wall_step),
+                                                   step(*side.casing, *side.leaf, least_wall_step))
+                                        : 0.0);
         }
         // Two leaves side by side are told by the casing around them: wide pieces of wall between
         // others lie deeper as well.

@@ -133,7 +133,7 @@ void OpenLeafFinder::widen_to_hinge(const WallFace& face, WallRectangle& hole) c
     }
 }
 
-bool fill_hole(std::span<const OpenLeafSide> leaves, const WallRectangle& hole) {
+bool can_close(std::span<const OpenLeafSide> leaves, const WallRectangle& hole) {
     constexpr double min_share = 0.85;
     bool is_at_start = false;
     bool is_at_end = false;

@@ -59,6 +59,6 @@ class OpenLeafFinder {
 };
 
 /// Whether leaves can close a hole: one that is as wide, or one at each side.
-bool fill_hole(std::span<const OpenLeafSide> leaves, const WallRectangle& hole);
+bool can_close(std::span<const OpenLeafSide> leaves, const WallRectangle& hole);
 
 }  // namespace roomscribe

@@ -271,7 +271,7 @@ void OpeningFinder::judge_open_way(WallOpening& opening) const {
     const WallFace& face = rooms.faces[opening.face];
     const double thickness = thickness_at(rooms, face, opening.hole).value_or(usual_thickness);
     opening.open_leaves = leaves_.find(face, opening.hole, thickness);
-    if (!fill_hole(opening.open_leaves, opening.hole)) opening.open_leaves.clear();
+    if (!can_close(opening.open_leaves, opening.hole)) opening.open_leaves.clear();
     opening.is_open = true;
     if (!opening.open_leaves.empty()) {
         opening.depth = std::clamp(opening.open_leaves.front().hinge.y(), 0.0, thickness);

@@ -16,12 +16,12 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// m: twice what DIN 18202 allows walls over 1 m.
-constexpr double min_step = 0.006;
 /// Standard deviations of the noise: nearer layers cannot be told apart (find_relief_layers).
 constexpr double min_deviations = 2.0;
 /// m. Frames and screens are no thicker; shelves and wall units are.
 constexpr double max_step = 0.1;
+/// From the wall's direction: noise turns small patches.
+constexpr double max_turn = radians(10.0);
 /// m2. A whiteboard has 2.4 x 1.2 m.
 constexpr double max_area = 3.0;
 /// m. Smaller ones are switches, and few voxels.
@@ -86,7 +86,7 @@ void FaceRelief::mark(const PlanarPatch& patch, std::vector<bool>& is_hung) cons
     if (std::min(extent.width(), extent.height()) < min_size || extent.area() > max_area) return;
     if (patch.area < min_fill * extent.area()) return;
     const double height = median(befores);
-    const double least = std::max(min_step, min_deviations * sample_.noise);
+    const double least = std::max(least_wall_step, min_deviations * sample_.noise);
 
     // What lies beside each side a step deeper, and in how many places along the side it shows.
     const WallRectangle inner = extent.grown(cell_size_, cell_size_, cell_size_);
@@ -136,9 +136,8 @@ void mark_hung_things(const SurfaceSample& sample, std::span<const PlanarPatch> 
         std::vector<const PlanarPatch*> candidates;
         for (const PlanarPatch& patch : patches) {
             if (patch.area > max_area) continue;
-            if (patch.plane.normal.dot(face.plane.normal) < std::cos(radians(10.0)) &&
-                (sample.normals_face_scanner ||
-                 patch.plane.normal.dot(face.plane.normal) > -std::cos(radians(10.0))))
+            const double cosine = patch.plane.normal.dot(face.plane.normal);
+            if ((sample.normals_face_scanner ? cosine : std::abs(cosine)) < std::cos(max_turn))
                 continue;
             const double along = patch.centroid.dot(face.along);
             const double above = patch.centroid.dot(up);

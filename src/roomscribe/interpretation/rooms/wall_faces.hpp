@@ -11,6 +11,10 @@
 
 namespace roomscribe {
 
+/// m. What is told from its wall by a step: twice what walls may be out of true over 1 m (DIN
+/// 18202, table 3, line 7: 3 mm).
+inline constexpr double least_wall_step = 0.006;
+
 /// One face of a wall in one room.
 struct WallFace {
     std::int32_t room = no_room;
