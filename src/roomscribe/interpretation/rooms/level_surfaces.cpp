@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <utility>
 
 #include "roomscribe/core/units.hpp"
@@ -132,27 +131,58 @@ bool stands_on_something(const Level& level, const SurfaceSample& sample,
     return static_cast<double>(below) >= min_share_below * static_cast<double>(num_voxels);
 }
 
-/// Takes out, from below, what lies under none of the levels above and is much smaller than one of
-/// them: ground that was seen through a window. Of two levels neither is it.
+/// Ground and terraces: a little of them at most lies under a roof.
+constexpr double min_share_under_roof = 0.2;
+
+/// Share of a level's cells that lie under one of the others; 0 of none.
+double share_under(const std::vector<std::pair<int, int>>& cells,
+                   std::span<const std::vector<std::pair<int, int>>> others) {
+    if (cells.empty()) return 0.0;
+    const auto is_under = [&](const std::pair<int, int>& cell) {
+        return std::any_of(others.begin(), others.end(), [&](const auto& other) {
+            return std::binary_search(other.begin(), other.end(), cell);
+        });
+    };
+    return static_cast<double>(std::count_if(cells.begin(), cells.end(), is_under)) /
+           static_cast<double>(cells.size());
+}
+
+/// Takes out, from below, what looks up under no ceiling while there is a floor above that has one:
+/// ground that was seen through a window, however large and however little below the floor.
+void drop_open_ground(std::vector<const Level*>& levels, const SurfaceSample& sample,
+                      std::span<const PlanarPatch> patches, const Eigen::Vector3d& up) {
+    std::vector<std::vector<std::pair<int, int>>> ceilings;
+    for (const Level* level : levels) {
+        if (level->facing_up < 0.0) ceilings.push_back(cells_of(*level, sample, patches, up));
+    }
+    const auto is_roofed = [&](const Level* level) {
+        return share_under(cells_of(*level, sample, patches, up), ceilings) >= min_share_under_roof;
+    };
+    const auto is_floor_above = [&](const Level* level) {
+        return level != levels.front() && level->facing_up > 0.0 && is_roofed(level) &&
+               !stands_on_something(*level, sample, patches, up);
+    };
+    while (!levels.empty() && levels.front()->facing_up > 0.0 && !is_roofed(levels.front()) &&
+           std::any_of(levels.begin(), levels.end(), is_floor_above)) {
+        levels.erase(levels.begin());
+    }
+}
+
+/// The same where nobody knows which way a surface looks. Takes out, from below, what lies under
+/// none of the levels above and is much smaller than one of them. Of two levels neither is it.
 void drop_ground(std::vector<const Level*>& levels, const SurfaceSample& sample,
                  std::span<const PlanarPatch> patches, const Eigen::Vector3d& up) {
-    constexpr double min_share = 0.2;
     const auto is_largest = [&] {
         return std::none_of(levels.begin(), levels.end(), [&](const Level* other) {
             return other->area > 2.0 * levels.front()->area;
         });
     };
     while (levels.size() > 2 && !is_largest()) {
-        const auto ground = cells_of(*levels.front(), sample, patches, up);
-        std::vector<std::pair<int, int>> under;
-        for (std::size_t i = 1; i < levels.size(); ++i) {
-            const auto above = cells_of(*levels[i], sample, patches, up);
-            std::set_intersection(ground.begin(), ground.end(), above.begin(), above.end(),
-                                  std::back_inserter(under));
-        }
-        std::sort(under.begin(), under.end());
-        under.erase(std::unique(under.begin(), under.end()), under.end());
-        if (static_cast<double>(under.size()) >= min_share * static_cast<double>(ground.size()))
+        std::vector<std::vector<std::pair<int, int>>> above;
+        for (std::size_t i = 1; i < levels.size(); ++i)
+            above.push_back(cells_of(*levels[i], sample, patches, up));
+        if (share_under(cells_of(*levels.front(), sample, patches, up), above) >=
+            min_share_under_roof)
             return;
         levels.erase(levels.begin());
     }
@@ -174,7 +204,11 @@ std::vector<Storey> find_storeys(const SurfaceSample& sample, std::span<const Pl
             large.push_back(&level);
         }
     }
-    if (!facing_is_known) drop_ground(large, sample, patches, up);
+    if (facing_is_known) {
+        drop_open_ground(large, sample, patches, up);
+    } else {
+        drop_ground(large, sample, patches, up);
+    }
     const auto may_be_floor = [](const Level* level) { return level->facing_up >= 0.0; };
     const auto may_be_ceiling = [](const Level* level) { return level->facing_up <= 0.0; };
 
