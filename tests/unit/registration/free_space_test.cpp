@@ -2,9 +2,11 @@
 #include "roomscribe/registration/pair/free_space.hpp"
 
 #include <cmath>
+#include <numbers>
 
 #include <gtest/gtest.h>
 
+#include "roomscribe/core/units.hpp"
 #include "support/shapes.hpp"
 #include "support/simulated_rooms.hpp"
 
@@ -28,6 +30,37 @@ std::vector<Eigen::Vector3f> scan_cube(Random& random, const Vector3d& sensor, i
         points.emplace_back((sensor + length * direction).cast<float>());
     }
     return points;
+}
+
+/// The same cube from its middle by a spinning scanner: rings far apart, dense along each.
+std::vector<Eigen::Vector3f> scan_cube_in_rings(double step_of_rings) {
+    std::vector<Eigen::Vector3f> points;
+    for (double elevation = radians(-44.0); elevation < radians(44.0); elevation += step_of_rings) {
+        for (double azimuth = 0.0; azimuth < 2.0 * std::numbers::pi; azimuth += radians(0.2)) {
+            const Vector3d direction(std::cos(elevation) * std::cos(azimuth),
+                                     std::cos(elevation) * std::sin(azimuth), std::sin(elevation));
+            points.emplace_back(
+                (direction * (half_size / direction.cwiseAbs().maxCoeff())).cast<float>());
+        }
+    }
+    return points;
+}
+
+TEST(FreeSpace, BetweenTheRingsOfASpinningScanner) {
+    Random random(2);
+    // 64, 32 and 16 rings over such a field of view.
+    for (const double step : {1.4, 2.9, 5.5}) {
+        const FreeSpace space(scan_cube_in_rings(radians(step)), Vector3d::Zero(), 2.5);
+        int num_free = 0;
+        constexpr int count = 1000;
+        for (int i = 0; i < count; ++i) {
+            const Vector3d place(random.uniform(0.8, 1.5), random.uniform(-0.6, 0.6),
+                                 random.uniform(-0.6, 0.6));
+            num_free += space.look_at(place, 0.1) == Visibility::free ? 1 : 0;
+            EXPECT_NE(space.look_at(2.0 * place / place.x(), 0.1), Visibility::free);
+        }
+        EXPECT_GT(num_free, 0.9 * count) << step << " degrees";
+    }
 }
 
 TEST(FreeSpace, OfAClosedRoom) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "roomscribe/registration/pair/pose_probability.hpp"
 
+#include <array>
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -8,39 +9,52 @@
 namespace roomscribe {
 namespace {
 
-double probability(double evidence, double lead, bool is_exhaustive) {
-    return probability_of({evidence, lead, is_exhaustive});
+constexpr std::array<PoseSearch, 3> searches{PoseSearch::narrow, PoseSearch::wide,
+                                             PoseSearch::exhaustive};
+
+double probability(double evidence, double lead, PoseSearch search) {
+    return probability_of({evidence, evidence - lead, search});
 }
 
 TEST(PoseProbability, GrowsWithEvidenceLeadAndSearch) {
-    for (const bool is_exhaustive : {false, true}) {
+    for (const PoseSearch search : searches) {
         for (double evidence = 0.0; evidence < 30.0; evidence += 5.0) {
             for (double lead = 0.0; lead <= evidence; lead += 5.0) {
-                const double here = probability(evidence, lead, is_exhaustive);
-                EXPECT_LT(here, probability(evidence + 5.0, lead, is_exhaustive));
-                EXPECT_LT(here, probability(evidence, lead + 5.0, is_exhaustive));
+                const double here = probability(evidence, lead, search);
+                EXPECT_LT(here, probability(evidence + 5.0, lead, search));
+                EXPECT_LT(here, probability(evidence, lead + 5.0, search));
             }
         }
     }
-    EXPECT_LT(probability(25.0, 25.0, false), probability(25.0, 25.0, true));
+    EXPECT_LT(probability(25.0, 25.0, PoseSearch::narrow),
+              probability(25.0, 25.0, PoseSearch::wide));
 }
 
 TEST(PoseProbability, IsOneOrNoneAtTheEnds) {
-    EXPECT_NEAR(probability(1e4, 1e4, true), 1.0, 1e-12);
-    EXPECT_NEAR(probability(1e4, 1e4, false), 1.0, 1e-12);
-    EXPECT_NEAR(probability(-1e4, -1e4, true), 0.0, 1e-12);
-    EXPECT_TRUE(std::isfinite(probability(-1e9, 1e9, false)));
+    EXPECT_NEAR(probability(1e4, 1e4, PoseSearch::exhaustive), 1.0, 1e-12);
+    EXPECT_NEAR(probability(1e4, 1e4, PoseSearch::narrow), 1.0, 1e-12);
+    EXPECT_NEAR(probability(-1e4, -1e4, PoseSearch::exhaustive), 0.0, 1e-12);
+    EXPECT_TRUE(std::isfinite(probability(-1e9, 1e9, PoseSearch::narrow)));
 }
 
 TEST(PoseProbability, EqualPosesCannotBothBeLikely) {
-    for (const bool is_exhaustive : {false, true})
-        EXPECT_LT(probability(1e3, 0.0, is_exhaustive), 0.5);
+    for (const PoseSearch search : searches)
+        EXPECT_LT(probability(1e3, 0.0, search), 0.5);
 }
 
 TEST(PoseProbability, ARivalTakesNothingFromTheEvidence) {
-    const PoseStanding with_rival{30.0, 0.0, true};
+    const PoseStanding with_rival{30.0, 30.0, PoseSearch::exhaustive};
     EXPECT_GT(probability_without_rivals(with_rival), 0.9);
     EXPECT_LT(probability_of(with_rival), 0.5);
+}
+
+TEST(PoseProbability, WithoutARivalTheEvidenceDecidesWhereNoneWasMissed) {
+    for (const PoseSearch search : {PoseSearch::wide, PoseSearch::exhaustive}) {
+        const PoseStanding alone{18.0, {}, search};
+        EXPECT_EQ(probability_of(alone), probability_without_rivals(alone));
+    }
+    const PoseStanding frames{18.0, {}, PoseSearch::narrow};
+    EXPECT_LT(probability_of(frames), probability_without_rivals(frames));
 }
 
 }  // namespace

@@ -69,6 +69,15 @@ TEST(SurfaceDirections, AreThoseOfABox) {
     EXPECT_FALSE(faces_three_ways(std::span(found).first(2)));
 }
 
+TEST(SurfaceDirections, WallsThatLookAtEachOtherFixOneShift) {
+    const std::vector<SurfaceDirection> across{{Eigen::Vector3d::UnitZ(), 0.4},
+                                               {Eigen::Vector3d::UnitX(), 0.3},
+                                               {Eigen::Vector3d::UnitY(), 0.03},
+                                               {-Eigen::Vector3d::UnitY(), 0.03}};
+    EXPECT_TRUE(faces_three_ways(across));
+    EXPECT_FALSE(faces_three_ways(std::span(across).first(3)));
+}
+
 TEST(SurfaceGrid, FindsAPointWhereverOneIsNear) {
     Random random(5);
     std::vector<Eigen::Vector3f> points;

@@ -142,7 +142,7 @@ class SetJoiner {
                     if (&other != &junction) rival = std::max(rival, other.evidence);
                 }
                 const double probability =
-                    probability_of({junction.evidence, junction.evidence - rival, true});
+                    probability_of({junction.evidence, rival, PoseSearch::exhaustive});
                 if (probability < highest) continue;
                 highest = probability;
                 likeliest = junction;

@@ -7,6 +7,8 @@
 namespace roomscribe {
 namespace {
 
+constexpr int min_seen = 5;  // the majority of a full neighbourhood
+
 std::size_t stride_for(std::size_t num_points, std::size_t num_wanted) {
     return std::max<std::size_t>(1, num_points / num_wanted);
 }
@@ -27,6 +29,31 @@ FreeSpace::FreeSpace(std::span<const Eigen::Vector3f> positions,
         cells_per_edge_ = std::max(coarsest, static_cast<int>(factor * cells_per_edge_));
         occupancy = fill(positions);
     }
+    // Cells that are finer than the rings of a spinning scanner lie apart. Of a grid's, nine in ten
+    // and more touch enough others.
+    constexpr double min_touching = 0.8;
+    constexpr double next_factor = 0.8;
+    while (share_of_touching_cells() < min_touching && cells_per_edge_ > coarsest) {
+        cells_per_edge_ = std::max(coarsest, static_cast<int>(next_factor * cells_per_edge_));
+        fill(positions);
+    }
+}
+
+double FreeSpace::share_of_touching_cells() const {
+    std::size_t num_occupied = 0;
+    std::size_t num_touching = 0;
+    for (int face = 0; face < 6; ++face) {
+        for (int row = 0; row < cells_per_edge_; ++row) {
+            for (int column = 0; column < cells_per_edge_; ++column) {
+                if (cells_[index_of({face, row, column})].nearest == 0.0F) continue;
+                ++num_occupied;
+                num_touching += look_around({face, row, column}).num_seen >= min_seen ? 1 : 0;
+            }
+        }
+    }
+    return num_occupied == 0
+               ? 1.0
+               : static_cast<double>(num_touching) / static_cast<double>(num_occupied);
 }
 
 double FreeSpace::fill(std::span<const Eigen::Vector3f> positions) {
@@ -66,29 +93,31 @@ FreeSpace::CellPlace FreeSpace::place_of(const Eigen::Vector3d& direction) const
             cell_of(direction[(axis + 1) % 3]), cell_of(direction[(axis + 2) % 3])};
 }
 
-Visibility FreeSpace::look_at(const Eigen::Vector3d& place, double margin) const {
-    const Eigen::Vector3d ray = place - sensor_position_;
-    const double range = ray.norm();
-    if (!(range > 0.0)) return Visibility::unseen;
-    const CellPlace center = place_of(ray);
-    double nearest = 0.0;
-    double farthest = 0.0;
-    int num_seen = 0;
+FreeSpace::Neighborhood FreeSpace::look_around(const CellPlace& center) const {
+    Neighborhood found;
     for (int row = std::max(center.row - 1, 0);
          row <= std::min(center.row + 1, cells_per_edge_ - 1); ++row) {
         for (int column = std::max(center.column - 1, 0);
              column <= std::min(center.column + 1, cells_per_edge_ - 1); ++column) {
             const Cell& cell = cells_[index_of({center.face, row, column})];
             if (cell.nearest == 0.0F) continue;
-            ++num_seen;
-            nearest = nearest == 0.0 ? cell.nearest : std::min<double>(nearest, cell.nearest);
-            farthest = std::max<double>(farthest, cell.farthest);
+            found.nearest =
+                found.num_seen == 0 ? cell.nearest : std::min(found.nearest, cell.nearest);
+            found.farthest = std::max(found.farthest, cell.farthest);
+            ++found.num_seen;
         }
     }
-    constexpr int min_seen = 5;  // the majority of a full neighbourhood
-    if (num_seen < min_seen) return Visibility::unseen;
-    if (range < nearest - margin) return Visibility::free;
-    if (range > farthest + margin) return Visibility::hidden;
+    return found;
+}
+
+Visibility FreeSpace::look_at(const Eigen::Vector3d& place, double margin) const {
+    const Eigen::Vector3d ray = place - sensor_position_;
+    const double range = ray.norm();
+    if (!(range > 0.0)) return Visibility::unseen;
+    const Neighborhood seen = look_around(place_of(ray));
+    if (seen.num_seen < min_seen) return Visibility::unseen;
+    if (range < static_cast<double>(seen.nearest) - margin) return Visibility::free;
+    if (range > static_cast<double>(seen.farthest) + margin) return Visibility::hidden;
     return Visibility::surface;
 }
 

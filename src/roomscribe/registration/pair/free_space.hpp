@@ -21,8 +21,9 @@ enum class Visibility : std::uint8_t {
 /// of a cube map, which keep the nearest and the farthest return.
 class FreeSpace {
   public:
-    /// Cells are as fine as the points allow: `points_per_cell` in an occupied cell on the average.
-    /// Points that are not finite are left out.
+    /// Cells are as fine as the points allow: `points_per_cell` in an occupied cell on the average,
+    /// and no finer than the lines of the scanner, which would leave them apart. Points that are
+    /// not finite are left out.
     FreeSpace(std::span<const Eigen::Vector3f> positions, const Eigen::Vector3d& sensor_position,
               double points_per_cell = 6.0);
 
@@ -41,8 +42,17 @@ class FreeSpace {
         int row;
         int column;
     };
+    /// What the cell and the up to eight around it hold.
+    struct Neighborhood {
+        int num_seen = 0;
+        float nearest = 0.0F;
+        float farthest = 0.0F;
+    };
     CellPlace place_of(const Eigen::Vector3d& direction) const;
     std::size_t index_of(const CellPlace& place) const;
+    Neighborhood look_around(const CellPlace& center) const;
+    /// Of the occupied cells, those with so many occupied ones around that places there are judged.
+    double share_of_touching_cells() const;
     /// Fills the cells; returns how many points an occupied one holds on the average.
     double fill(std::span<const Eigen::Vector3f> positions);
     friend double self_contradiction(std::span<const Eigen::Vector3f> positions,

@@ -24,6 +24,18 @@ bool tilts_a_camera(const PreparedScan& source, const PreparedScan& target,
            std::cos(max_tilt);
 }
 
+bool see_around(const PreparedScan& source, const PreparedScan& target) {
+    return !source.usual_up.is_camera && !target.usual_up.is_camera;
+}
+
+/// Scans that see around themselves meet through doors, where they share 3 to 6 per cent; frames of
+/// cameras that share so little slide.
+PairRegistrationSettings settings_of_pair(const PreparedScan& source, const PreparedScan& target,
+                                          PairRegistrationSettings settings) {
+    if (see_around(source, target)) settings.min_overlap *= 0.3;
+    return settings;
+}
+
 /// Whether the scans agree with the refined pose, if only because neither says much.
 bool is_tenable(const PoseSupport& support, const PairRegistrationSettings& settings) {
     const double min_agreement =
@@ -88,19 +100,30 @@ void put_tilted_last(const PreparedScan& source, const PreparedScan& target,
     });
 }
 
-double best_evidence(std::span<const VerifiedPose* const> poses) {
-    double best = 0.0;
-    for (const VerifiedPose* pose : poses)
-        best = std::max(best, pose->support.evidence());
-    return best;
+PoseSearch search_of(const PreparedScan& source, const PreparedScan& target,
+                     const PairRegistrationSettings& settings) {
+    if (settings.initial_alignment != InitialAlignment::surfaces) return PoseSearch::narrow;
+    if (faces_three_ways(source.directions) && faces_three_ways(target.directions))
+        return PoseSearch::exhaustive;
+    return see_around(source, target) ? PoseSearch::wide : PoseSearch::narrow;
+}
+
+/// What a pose is judged by: of scans that see around themselves and all of whose poses were looked
+/// at, an uncontradicted shell says more.
+double evidence_of(const PoseSupport& support, const PreparedScan& source,
+                   const PreparedScan& target, PoseSearch search) {
+    return search == PoseSearch::exhaustive && see_around(source, target)
+               ? support.evidence_with_shell()
+               : support.evidence();
 }
 
 }  // namespace
 
 RegistrationLink register_pair(const PreparedScan& source, const PreparedScan& target,
-                               std::uint64_t seed, const PairRegistrationSettings& settings,
+                               std::uint64_t seed, const PairRegistrationSettings& given,
                                const Context& context) {
-    check_settings(settings);
+    check_settings(given);
+    const PairRegistrationSettings settings = settings_of_pair(source, target, given);
     const RegistrationScale scale = joint_scale(source, target);
     std::vector<VerifiedPose> poses;
     if (settings.initial_alignment == InitialAlignment::surfaces) {
@@ -111,10 +134,8 @@ RegistrationLink register_pair(const PreparedScan& source, const PreparedScan& t
     constexpr double enough_evidence = 15.0;
     const bool is_supported_already =
         !poses.empty() && poses.front().support.evidence() >= enough_evidence;
-    const bool is_listed = settings.initial_alignment == InitialAlignment::surfaces &&
-                           faces_three_ways(source.directions) &&
-                           faces_three_ways(target.directions);
-    if (!is_supported_already && !is_listed) {
+    const PoseSearch search = search_of(source, target, settings);
+    if (!is_supported_already && search != PoseSearch::exhaustive) {
         for (VerifiedPose& pose :
              verify_poses(source, target,
                           propose_from_matches(source, target, scale, seed, settings, context),
@@ -130,10 +151,14 @@ RegistrationLink register_pair(const PreparedScan& source, const PreparedScan& t
         return nothing;
     }
     const std::vector<const VerifiedPose*> rivals = find_rivals(source, poses, scale, settings);
-    const double evidence = poses.front().support.evidence();
+    const auto evidence = [&](const VerifiedPose& pose) {
+        return evidence_of(pose.support, source, target, search);
+    };
+    PoseStanding standing{evidence(poses.front()), {}, search};
+    for (const VerifiedPose* rival : rivals)
+        standing.rival = std::max(standing.rival.value_or(0.0), evidence(*rival));
     RegistrationLink link =
-        link_of(poses.front(), {evidence, evidence - best_evidence(rivals), is_listed}, source,
-                target, scale, settings, context);
+        link_of(poses.front(), standing, source, target, scale, settings, context);
     if (link.verdict == LinkVerdict::ambiguous) {
         for (const VerifiedPose* rival : rivals) {
             if (!tilts_a_camera(source, target, rival->icp.target_from_source))
@@ -145,15 +170,16 @@ RegistrationLink register_pair(const PreparedScan& source, const PreparedScan& t
 
 RegistrationLink register_pair_from(const PreparedScan& source, const PreparedScan& target,
                                     const Transform& target_from_source_guess,
-                                    const PairRegistrationSettings& settings,
-                                    const Context& context) {
-    check_settings(settings);
+                                    const PairRegistrationSettings& given, const Context& context) {
+    check_settings(given);
+    const PairRegistrationSettings settings = settings_of_pair(source, target, given);
     const RegistrationScale scale = joint_scale(source, target);
     const VerifiedPose pose =
         verify_pose(source, target, target_from_source_guess, scale, settings, context);
     // The guess stands for the search.
-    const double evidence = pose.support.evidence();
-    return link_of(pose, {evidence, evidence, true}, source, target, scale, settings, context);
+    constexpr PoseSearch search = PoseSearch::exhaustive;
+    const PoseStanding standing{evidence_of(pose.support, source, target, search), {}, search};
+    return link_of(pose, standing, source, target, scale, settings, context);
 }
 
 }  // namespace roomscribe

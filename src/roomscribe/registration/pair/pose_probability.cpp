@@ -13,12 +13,23 @@ double logistic(double x) {
 }  // namespace
 
 double probability_without_rivals(const PoseStanding& standing) {
-    return standing.is_exhaustive ? logistic(standing.evidence - 10.5)
-                                  : logistic(0.07 * (standing.evidence - 6.7));
+    switch (standing.search) {
+        case PoseSearch::exhaustive:
+            return logistic(standing.evidence - 10.5);
+        case PoseSearch::wide:
+            return logistic(0.35 * (standing.evidence - 13.0));
+        case PoseSearch::narrow:
+            break;
+    }
+    return logistic(0.07 * (standing.evidence - 6.7));
 }
 
 double probability_of(const PoseStanding& standing) {
-    return probability_without_rivals(standing) * logistic(0.3 * (standing.lead - 6.0));
+    const double alone = probability_without_rivals(standing);
+    // A frame that has no rival may have missed them all.
+    if (standing.search != PoseSearch::narrow && !standing.rival) return alone;
+    const double lead = standing.evidence - standing.rival.value_or(0.0);
+    return alone * logistic(0.3 * (lead - 6.0));
 }
 
 }  // namespace roomscribe

@@ -1,15 +1,24 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
+#include <optional>
+
 namespace roomscribe {
+
+/// Whether all poses were looked at that bring the scans' surfaces together. Where the right one
+/// may have been missed, no lead tells.
+enum class PoseSearch : std::uint8_t {
+    exhaustive,  ///< both scans face three ways
+    wide,        ///< else, of scans that see around themselves: little is hidden from both
+    narrow       ///< else: frames of cameras
+};
 
 /// How the best pose of two scans stands, in pieces of detail (PoseSupport::evidence).
 struct PoseStanding {
     double evidence = 0.0;
-    double lead = 0.0;  ///< over the best different pose with evidence; all of it if there is none
-    /// Whether all poses were looked at that bring the scans' surfaces together. Of two scans that
-    /// do not face three ways the right pose may have been missed, and then no lead tells.
-    bool is_exhaustive = false;
+    std::optional<double> rival;  ///< evidence of the best different pose that has any
+    PoseSearch search = PoseSearch::narrow;
 };
 
 /// That a pose with such evidence is right if it has no rivals, in [0, 1].

@@ -18,7 +18,6 @@ double screen_witnesses(const OrientedPoints& witnesses, const PreparedScan& jud
     constexpr double contradicted = -4.0;
     const std::size_t num_wanted = std::max<std::size_t>(1, screening.num_witnesses / 2);
     const std::size_t stride = std::max<std::size_t>(1, witnesses.positions.size() / num_wanted);
-    const bool asks_free_space = screening.asks_free_space && judge.free_space_is_valid;
     const auto max_off_plane = static_cast<float>(0.5 * scale.coarse_voxel);
     double sum = 0.0;
     std::size_t count = 0;
@@ -32,7 +31,7 @@ double screen_witnesses(const OrientedPoints& witnesses, const PreparedScan& jud
                     static_cast<float>(same_surface_cosine) &&
                 std::abs(normal.dot(place - judge.coarse.positions[*near])) <= max_off_plane;
             sum += agrees ? 1.0 : 0.0;
-        } else if (asks_free_space &&
+        } else if (judge.free_space_is_valid &&
                    judge.free_space.look_at(place.cast<double>(), scale.coarse_voxel) ==
                        Visibility::free) {
             sum += contradicted;

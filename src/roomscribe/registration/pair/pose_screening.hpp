@@ -14,7 +14,6 @@ namespace roomscribe {
 /// How closely poses are looked at.
 struct Screening {
     std::size_t num_witnesses = 300;  ///< of a scan, half of them details
-    bool asks_free_space = true;      ///< whether rays that passed speak against a pose
     bool both_ways = true;            ///< whether the target's witnesses are heard, too
 };
 

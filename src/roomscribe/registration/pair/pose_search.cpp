@@ -280,9 +280,19 @@ Matrix3d choose_axes(const RotationCandidate& candidate, std::span<const Surface
 
 bool faces_three_ways(std::span<const SurfaceDirection> directions) {
     constexpr double min_share = 0.05;
+    // Walls that look at each other fix the same shift.
+    const auto share_of_axis = [directions](const SurfaceDirection& axis) {
+        const double cosine = std::cos(same_direction_angle);
+        double share = 0.0;
+        for (const SurfaceDirection& surface : directions) {
+            if (std::abs(surface.direction.dot(axis.direction)) >= cosine) share += surface.share;
+        }
+        return share;
+    };
     Matrix3d spread = Matrix3d::Zero();
     for (const SurfaceDirection& surface : directions) {
-        if (surface.share >= min_share) spread += surface.direction * surface.direction.transpose();
+        if (share_of_axis(surface) >= min_share)
+            spread += surface.direction * surface.direction.transpose();
     }
     // Three at right angles give three times 1; a third that leans out of the plane of two by 30
     // degrees still gives a quarter.

@@ -11,6 +11,10 @@
 namespace roomscribe {
 namespace {
 
+/// Wrong poses were chosen because they bring large planes together, so these say little for a
+/// pose; rays that passed speak alike against either. docs/registration.md
+constexpr double usual_weight_of_shell = 0.02;
+
 double share(double part, std::size_t whole) {
     return whole == 0 ? 0.0 : part / static_cast<double>(whole);
 }
@@ -165,10 +169,20 @@ double PoseSupport::agreement() const {
 }
 
 double PoseSupport::evidence() const {
-    // Wrong poses were chosen because they bring large planes together, so these say little for a
-    // pose; rays that passed speak alike against either. What is displaced says nothing: blurred
-    // surfaces are displaced at the right pose, too. docs/registration.md
-    constexpr double weight_of_shell = 0.02;
+    return weigh(usual_weight_of_shell);
+}
+
+double PoseSupport::evidence_with_shell() const {
+    constexpr double weight_of_clean_shell = 0.1;
+    constexpr double max_share = 0.01;
+    WitnessTally pieces = shell.pieces;
+    pieces += detail.pieces;
+    const double cleanness = std::max(0.0, 1.0 - pieces.contradicted_share() / max_share);
+    return weigh(std::lerp(usual_weight_of_shell, weight_of_clean_shell, cleanness));
+}
+
+double PoseSupport::weigh(double weight_of_shell) const {
+    // What is displaced says nothing: blurred surfaces are displaced at the right pose, too.
     const std::size_t shell_confirmed = shell.pieces.confirmed;
     const std::size_t detail_confirmed = detail.pieces.confirmed;
     const double confirmed = static_cast<double>(detail_confirmed) +
