@@ -391,7 +391,7 @@ void OpeningFinder::add_flat_doors(std::size_t storey, std::size_t number, const
             });
         if (is_known) continue;
         opening.frame_width = casing_width;
-        opening.depth = std::max(0.0, -door.height);
+        opening.depth = -door.height;
         opening.room_behind = room_behind(rooms, rooms.faces[number], opening.hole);
         opening.rule = "leaf of a door's size nearly in the plane of the wall, on the floor";
         opening.coverage = 1.0;
