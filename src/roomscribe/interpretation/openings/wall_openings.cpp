@@ -374,6 +374,7 @@ std::optional<WallOpening> OpeningFinder::judge(std::size_t storey, std::size_t 
         }
     }
     if (signs.above_floor <= max_rail && hole.height() >= min_glazing_height &&
+        hole.top + usual_rail <= rooms.floor_height + max_door_height &&
         hole.width() >= min_glazing_width && hole.width() <= max_leaf_width &&
         !signs.shows_outdoors && is_indoors_behind(rooms, face, hole)) {
         make_glazed_door(rooms.floor_height, opening);
