@@ -172,9 +172,10 @@ class OpeningTest {
 
     FacePlace place_of(const Eigen::Vector3f& point) const { return axes_.place_of(point); }
 
-    /// In the wall, in or just beside the hole or the casing.
+    /// In the wall, in or just beside the hole or the casing, or on a leaf that stands out.
     bool reaches(const FacePlace& place) const {
-        return place.depth <= static_cast<float>(max_wall_depth) && place.depth >= -max_casing &&
+        const float nearest = std::min(0.0F, static_cast<float>(opening_.depth)) - max_casing;
+        return place.depth <= static_cast<float>(max_wall_depth) && place.depth >= nearest &&
                is_in(frame_, place);
     }
 

@@ -100,5 +100,52 @@ TEST(FlatDoors, HaveACasingWhereTheyHaveTwoLeaves) {
     EXPECT_TRUE(none.empty());
 }
 
+/// A rebated leaf 3 cm before the wall from `start` to `end`, 2 m high, over its architrave.
+double proud_door(double x, double z, double start, double end) {
+    if (x > start && x < end && z < 2.0) return 0.03;
+    return x > start - 0.06 && x < end + 0.06 && z < 2.06 ? 0.015 : 0.0;
+}
+
+TEST(FlatDoors, StandProudOfTheWallWhereTheyOpenTo) {
+    const auto doors =
+        find_flat_doors(wall_with([](double x, double z) { return proud_door(x, z, 1.5, 2.4); }));
+    ASSERT_EQ(doors.size(), 1U);
+    expect_door(doors[0], 1.5, 2.4);
+    EXPECT_NEAR(doors[0].cells.high * cell_size, 2.0, 2.0 * cell_size);
+    EXPECT_NEAR(doors[0].height, 0.03, 0.005);
+}
+
+TEST(FlatDoors, StandProudWhereACornerHidesASide) {
+    const auto doors =
+        find_flat_doors(wall_with([](double x, double z) { return proud_door(x, z, 0.07, 0.95); }));
+    ASSERT_EQ(doors.size(), 1U);
+    expect_door(doors[0], 0.07, 0.95);
+}
+
+TEST(FlatDoors, AreNotBoardsPiersNorWardrobes) {
+    const auto count = [](double depth, double bottom, double top) {
+        return find_flat_doors(wall_with([=](double x, double z) {
+                   return x > 1.5 && x < 2.4 && z > bottom && z < top ? depth : 0.0;
+               }))
+            .size();
+    };
+    EXPECT_EQ(count(0.03, 0.0, 2.0), 1U);
+    EXPECT_EQ(count(0.03, 0.5, 2.0), 0U) << "a board";
+    EXPECT_EQ(count(0.03, 0.0, 2.6), 0U) << "a pier";
+    EXPECT_EQ(count(0.03, 0.0, 1.6), 0U) << "a low front";
+    EXPECT_EQ(count(0.2, 0.0, 2.0), 0U) << "a wardrobe";
+}
+
+TEST(FlatDoors, AreNotTheBackOfAShelf) {
+    WallRelief relief =
+        wall_with([](double x, double z) { return x > 1.5 && x < 2.4 && z < 2.0 ? 0.03 : 0.0; });
+    for (int row = 0; row < 40; ++row) {
+        for (int column = 30; column < 48; ++column) {
+            if ((row + column) % 2 == 0) relief.cells[relief.index(column, row)].hidden = 8;
+        }
+    }
+    EXPECT_TRUE(find_flat_doors(relief).empty());
+}
+
 }  // namespace
 }  // namespace roomscribe

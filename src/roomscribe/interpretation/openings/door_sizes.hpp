@@ -13,6 +13,8 @@ inline constexpr double usual_door_height = 2.0;
 inline constexpr double max_leaf_width = 1.3;
 /// m. The widest single leaf of DIN 18101; the hole in its frame is no wider.
 inline constexpr double widest_usual_leaf = 1.11;
+/// m. The tallest (2.235 m is the third of its heights).
+inline constexpr double tallest_usual_leaf = 2.24;
 /// m. Thresholds, skirtings and what lies on the floor.
 inline constexpr double floor_reach = 0.25;
 

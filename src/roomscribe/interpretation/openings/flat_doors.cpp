@@ -25,7 +25,8 @@ class FlatDoorSearch {
                 if (cell.near > 0 && 2 * cell.near >= cell.surface + cell.open()) {
                     const double mean = static_cast<double>(cell.height) / cell.near;
                     // Levers stand out, and what hangs on the wall.
-                    if (mean <= max_height) sum = {1.0, mean, mean * mean};
+                    if (mean <= max_height) sum = {1.0, mean, mean * mean, 0.0};
+                    if (cell.hidden > cell.near) sum.covered = sum.count;
                 }
                 at(column + 1, row + 1) =
                     sum + at(column, row + 1) + at(column + 1, row) - at(column, row);
@@ -78,6 +79,12 @@ class FlatDoorSearch {
     /// Standard errors of the difference of two strips; neighbouring cells err alike.
     static constexpr double min_errors = 3.0;
     static constexpr double correlated_cells = 8.0;
+    /// m before the wall: a casing's 15 to 20 mm and the 15 mm by which rebated leaves stand before
+    /// it (DIN 18101: 13 mm rebate, and its gap), and noise. The doors of wardrobes stand farther.
+    static constexpr double max_proud = 0.045;
+    /// Of the cells of a leaf, those before which something stands: doors are kept clear, and the
+    /// back of a shelf has the shelf before it.
+    static constexpr double max_covered = 0.25;
     /// Of a step, by how much the leaf itself may bend.
     static constexpr double max_bend = 0.4;
 
@@ -85,12 +92,15 @@ class FlatDoorSearch {
         double count = 0.0;
         double heights = 0.0;
         double squares = 0.0;
+        double covered = 0.0;  ///< cells that most rays aimed at ended before
 
         Sum operator+(const Sum& other) const {
-            return {count + other.count, heights + other.heights, squares + other.squares};
+            return {count + other.count, heights + other.heights, squares + other.squares,
+                    covered + other.covered};
         }
         Sum operator-(const Sum& other) const {
-            return {count - other.count, heights - other.heights, squares - other.squares};
+            return {count - other.count, heights - other.heights, squares - other.squares,
+                    covered - other.covered};
         }
         double mean() const { return heights / count; }
         double variance_of_mean() const {
@@ -149,27 +159,40 @@ class FlatDoorSearch {
     /// The strips along one edge of a leaf, from within outwards.
     struct Side {
         std::optional<Sum> leaf, casing, wall;
+        bool is_corner = false;  ///< the wall ends closely beside the leaf
     };
 
-    /// Of a leaf: left, right, above.
-    std::array<Side, 3> sides_of(const CellRectangle& door) const {
+    /// Left or right of a leaf. Beside a corner there is less wall, or nothing but a casing.
+    Side side_of(const CellRectangle& door, bool is_left) const {
         const int gap = 1;  // cells half on either side
         const int casing = cells(0.1);
         const int inner = cells(0.2);
         const int outer = cells(0.15);
-        const int low = cells(0.15);  // above skirtings
-        // Beside a corner there is less wall.
-        const int left = std::max(0, door.left - casing - outer);
-        const int right = std::min(relief_.num_columns, door.right + casing + outer);
-        return {Side{strip(door.left + gap, door.left + gap + inner, low, door.high),
-                     strip(door.left - casing + gap, door.left, low, door.high),
-                     strip(left, door.left - casing, low, door.high)},
-                Side{strip(door.right - gap - inner, door.right - gap, low, door.high),
-                     strip(door.right, door.right + casing - gap, low, door.high),
-                     strip(door.right + casing, right, low, door.high)},
-                Side{strip(door.left, door.right, door.high - gap - inner, door.high - gap),
-                     strip(door.left, door.right, door.high, door.high + casing - gap),
-                     strip(door.left, door.right, door.high + casing, door.high + casing + outer)}};
+        const int low = cells(0.15);                 // above skirtings
+        const auto beside = [&](int from, int to) {  // outwards of the leaf
+            return is_left ? strip(door.left - to, door.left - from, low, door.high)
+                           : strip(door.right + from, door.right + to, low, door.high);
+        };
+        const int columns = is_left ? door.left : relief_.num_columns - door.right;
+        Side side;
+        side.leaf = beside(-gap - inner, -gap);
+        side.is_corner = columns <= casing;
+        side.casing = side.is_corner ? std::nullopt : beside(0, casing - gap);
+        side.wall = side.is_corner ? beside(0, columns - gap)
+                                   : beside(casing, std::min(columns, casing + outer));
+        return side;
+    }
+
+    /// Of a leaf: left, right, above.
+    std::array<Side, 3> sides_of(const CellRectangle& door) const {
+        const int gap = 1;
+        const int casing = cells(0.1);
+        const int high = door.high;
+        Side above;
+        above.leaf = strip(door.left, door.right, high - gap - cells(0.2), high - gap);
+        above.casing = strip(door.left, door.right, high, high + casing - gap);
+        above.wall = strip(door.left, door.right, high + casing, high + casing + cells(0.15));
+        return {side_of(door, true), side_of(door, false), above};
     }
 
     /// Nothing but a few cells was seen above.
@@ -180,40 +203,112 @@ class FlatDoorSearch {
                0.1 * usual_share_ * (door.right - door.left) * (high - door.high);
     }
 
-    std::optional<FlatDoor> look_at(const CellRectangle& door) const {
-        const int gap = 1;
-        const auto leaf = strip(door.left + gap, door.right - gap, cells(0.15), door.high - gap);
-        if (!leaf) return std::nullopt;
-        const std::array<Side, 3> sides = sides_of(door);
-        const double width = (door.right - door.left) * relief_.cell_size;
-        const double least = least_wall_step + min_step_per_metre * std::max(0.0, width - 1.0);
+    /// Whether all of a leaf lies `height` before the wall: boards and pictures hang above the
+    /// floor and are smaller. Of quarters of its height and halves of its width, most must be seen.
+    bool is_even(const CellRectangle& door, const Sum& leaf, double height) const {
+        constexpr int rows = 4;
+        constexpr int columns = 2;
+        constexpr int min_seen = 5;
+        const int low = cells(0.1);
+        int num_seen = 0;
+        for (int i = 0; i < rows * columns; ++i) {
+            const int row = i / columns;
+            const int column = i % columns;
+            const int wide = door.right - door.left - 2;
+            const int high = door.high - 1 - low;
+            const auto part = strip(door.left + 1 + wide * column / columns,
+                                    door.left + 1 + wide * (column + 1) / columns,
+                                    low + high * row / rows, low + high * (row + 1) / rows);
+            if (!part) continue;
+            if (std::abs(part->mean() - leaf.mean()) > max_bend * height) return false;
+            ++num_seen;
+        }
+        return num_seen >= min_seen;
+    }
+
+    /// By how many least steps a leaf stands before the wall on all its sides, as rebated ones do
+    /// on the side that they open to. The wall above must be seen: piers between two recesses go
+    /// on up there. A corner closely beside the leaf hides one side.
+    double proud_contrast(const CellRectangle& door, const Sum& leaf,
+                          const std::array<Side, 3>& sides, double least) const {
+        if (leaf.covered > max_covered * leaf.count) return 0.0;
+        double contrast = std::numeric_limits<double>::infinity();
+        double lowest = max_proud;
+        int num_hidden = 0;
+        for (const Side& side : sides) {
+            if (!side.wall && side.is_corner && side.leaf) {
+                ++num_hidden;
+                continue;
+            }
+            if (!side.leaf || !side.wall) return 0.0;
+            const double height = side.leaf->mean() - side.wall->mean();
+            if (std::abs(side.leaf->mean() - leaf.mean()) > max_bend * height) return 0.0;
+            lowest = std::min(lowest, height);
+            if (height > max_proud) return 0.0;
+            contrast = std::min(contrast, step(*side.leaf, *side.wall, least));
+            if (contrast < 1.0) return 0.0;
+        }
+        return num_hidden <= 1 && is_even(door, leaf, lowest) ? contrast : 0.0;
+    }
+
+    /// By how many least steps a leaf lies deeper than the wall on its sides, or its casing stands
+    /// out.
+    double recessed_contrast(const CellRectangle& door, const Sum& leaf,
+                             const std::array<Side, 3>& sides, double least) const {
         // A scanner that cannot look up sees no lintel; of one that shows in part, casings on both
         // sides make up for it.
         const bool is_top_seen = sides[2].leaf && sides[2].wall;
-        const std::size_t num_sides = is_top_seen ? 3 : 2;
         double lower = std::numeric_limits<double>::infinity();
         double cased = lower;
-        double height = 0.0;
-        for (std::size_t i = 0; i < num_sides; ++i) {
+        int num_hidden = 0;
+        for (std::size_t i = 0; i < (is_top_seen ? 3 : 2); ++i) {
             const Side& side = sides[i];
-            if (!side.leaf || !side.wall) return std::nullopt;
+            if (!side.wall && side.is_corner && side.leaf && is_top_seen) {
+                ++num_hidden;
+                continue;
+            }
+            if (!side.leaf || !side.wall) return 0.0;
             // What stands before what is beside it is wall between two doors.
-            if (side.leaf->mean() - side.wall->mean() >= 0.5 * least_wall_step) return std::nullopt;
             const double depth = side.wall->mean() - side.leaf->mean();
-            const bool is_flat = std::abs(side.leaf->mean() - leaf->mean()) <= max_bend * depth;
+            if (depth <= -0.5 * least_wall_step) return 0.0;
+            const bool is_flat = std::abs(side.leaf->mean() - leaf.mean()) <= max_bend * depth;
             lower = std::min(lower, is_flat ? -step(*side.leaf, *side.wall, least) : 0.0);
-            height -= depth / static_cast<double>(num_sides);
             cased = std::min(cased, side.casing
                                         ? std::min(step(*side.casing, *side.wall, least_wall_step),
                                                    step(*side.casing, *side.leaf, least_wall_step))
                                         : 0.0);
         }
+        if (num_hidden > 1) return 0.0;
         // Two leaves side by side are told by the casing around them: wide pieces of wall between
         // others lie deeper as well.
-        const bool needs_casing = width > max_flat_width || (!is_top_seen && !is_top_unseen(door));
-        const double contrast = needs_casing ? cased : std::max(lower, cased);
+        const bool needs_casing =
+            width_of(door) > max_flat_width || (!is_top_seen && !is_top_unseen(door));
+        return needs_casing ? cased : std::max(lower, cased);
+    }
+
+    double width_of(const CellRectangle& door) const {
+        return (door.right - door.left) * relief_.cell_size;
+    }
+
+    std::optional<FlatDoor> look_at(const CellRectangle& door) const {
+        const int gap = 1;
+        const auto leaf = strip(door.left + gap, door.right - gap, cells(0.15), door.high - gap);
+        if (!leaf) return std::nullopt;
+        const std::array<Side, 3> sides = sides_of(door);
+        const double least =
+            least_wall_step + min_step_per_metre * std::max(0.0, width_of(door) - 1.0);
+        const double contrast = std::max(proud_contrast(door, *leaf, sides, least),
+                                         recessed_contrast(door, *leaf, sides, least));
         if (contrast < 1.0) return std::nullopt;
-        return FlatDoor{door, height, contrast, num_sides == 3};
+        const bool is_top_seen = sides[2].leaf && sides[2].wall;
+        double height = 0.0;
+        int num_sides = 0;
+        for (std::size_t i = 0; i < (is_top_seen ? 3 : 2); ++i) {
+            if (!sides[i].wall) continue;
+            height += sides[i].leaf->mean() - sides[i].wall->mean();
+            ++num_sides;
+        }
+        return FlatDoor{door, height / num_sides, contrast, is_top_seen};
     }
 
     const WallRelief& relief_;

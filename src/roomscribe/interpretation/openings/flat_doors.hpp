@@ -19,7 +19,9 @@ struct FlatDoor {
 /// lie a few millimetres deeper than the wall on both sides and above, or have a casing around them
 /// that stands out. Two leaves need the casing, and so does one above which the wall shows only in
 /// part; where nothing was seen above, as by scanners that look up by few degrees, both sides are
-/// enough. The clearest first; no two share a column.
+/// enough. Or they stand before the wall, up to 45 mm, on both sides and above, evenly from the
+/// floor on and with little before them, as rebated leaves do where they open to. A corner closely
+/// beside a leaf may hide one side. The clearest first; no two share a column.
 std::vector<FlatDoor> find_flat_doors(const WallRelief& relief);
 
 }  // namespace roomscribe

@@ -2,14 +2,18 @@
 #include "roomscribe/interpretation/openings/open_leaves.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <set>
 
 #include <Eigen/Geometry>
 
 #include "roomscribe/core/units.hpp"
 #include "roomscribe/interpretation/openings/door_sizes.hpp"
+#include "roomscribe/interpretation/openings/face_axes.hpp"
+#include "roomscribe/interpretation/openings/wall_relief.hpp"
 
 namespace roomscribe {
 
@@ -106,6 +110,84 @@ std::vector<OpenLeafSide> OpenLeafFinder::find(const WallFace& face, const WallR
     std::stable_sort(sides.begin(), sides.end(),
                      [&](const auto& a, const auto& b) { return misfit(a) < misfit(b); });
     return sides;
+}
+
+std::optional<double> OpenLeafFinder::closed_leaf_depth(const WallFace& face,
+                                                        const WallRectangle& hole) const {
+    // The frame of a leaf 0.61 m wide, 60 mm around, is a quarter of its hole.
+    constexpr double min_cover = 0.4;
+    constexpr double max_turn = radians(8.0);
+    constexpr int reach = 3;  // bins: a leaf's panels, and noise
+    // Scanners whose lines are far apart sample a leaf thinly.
+    const double cell = std::max(0.1, 2.0 * sample_.spacing);
+    const int columns = std::max(1, static_cast<int>(std::lround(hole.width() / cell)));
+    const int rows = std::max(1, static_cast<int>(std::lround(hole.height() / cell)));
+    std::array<std::vector<int>, num_depth_bins> cells;
+    const FaceAxes axes(face, up_);
+    for (std::size_t number = 0; number < patches_.size(); ++number) {
+        const PlanarPatch& patch = patches_[number];
+        if (!is_upright(patch)) continue;
+        if (std::abs(patch.plane.normal.dot(face.plane.normal)) < std::cos(max_turn)) continue;
+        const double middle = -face.plane.signed_distance(patch.centroid);
+        if (middle < 0.0 || middle > max_wall_depth) continue;
+        for (const std::uint32_t voxel : patch.points) {
+            const FacePlace place = axes.place_of(sample_.cloud.positions[voxel]);
+            const double across = (place.along - hole.start) / hole.width();
+            const double above = (place.above - hole.bottom) / hole.height();
+            const double depth = place.depth / depth_bin;
+            if (across < 0.0 || across >= 1.0 || above < 0.0 || above >= 1.0) continue;
+            if (depth < 0.0 || depth >= static_cast<double>(num_depth_bins)) continue;
+            cells[static_cast<std::size_t>(depth)].push_back(
+                static_cast<int>(above * rows) * columns + static_cast<int>(across * columns));
+        }
+    }
+    const auto by_count = [](const auto& a, const auto& b) { return a.size() < b.size(); };
+    const int most =
+        static_cast<int>(std::max_element(cells.begin(), cells.end(), by_count) - cells.begin());
+    std::set<int> covered;
+    for (int bin = std::max(0, most - reach); bin <= std::min(num_depth_bins - 1, most + reach);
+         ++bin) {
+        const std::vector<int>& at_depth = cells[static_cast<std::size_t>(bin)];
+        covered.insert(at_depth.begin(), at_depth.end());
+    }
+    if (static_cast<double>(covered.size()) < min_cover * columns * rows) return std::nullopt;
+    return (most + 0.5) * depth_bin;
+}
+
+std::optional<double> OpenLeafFinder::lining_depth(const WallFace& face, const WallRectangle& hole,
+                                                   double max_thickness) const {
+    constexpr double min_thickness = 0.1;  // m: inner walls with plaster
+    constexpr double width = 0.08;     // m into the hole and out of it, of lining, stop and error
+    constexpr double from_rims = 0.2;  // m of the hole's height at its ends
+    constexpr double step = 0.02;
+    const auto num_steps = static_cast<std::size_t>(max_thickness / step) + 5;
+    std::array<std::vector<bool>, 2> is_lined;
+    for (std::vector<bool>& side : is_lined)
+        side.resize(num_steps);
+    const FaceAxes axes(face, up_);
+    for (const Eigen::Vector3f& position : sample_.cloud.positions) {
+        const FacePlace at = axes.place_of(position);
+        if (at.depth < 0.0F || at.above < hole.bottom + from_rims ||
+            at.above > hole.top - from_rims)
+            continue;
+        const auto number = static_cast<std::size_t>(at.depth / step);
+        if (number >= num_steps) continue;
+        if (std::abs(at.along - hole.start) <= width) is_lined[0][number] = true;
+        if (std::abs(at.along - hole.end) <= width) is_lined[1][number] = true;
+    }
+    const auto max_gap = static_cast<std::size_t>(std::max(0.08, 3.0 * sample_.spacing) / step);
+    std::optional<double> depth;
+    for (const auto& side : is_lined) {
+        std::size_t last = 0;
+        for (std::size_t i = 0; i < num_steps && i <= last + max_gap; ++i) {
+            if (side[i]) last = i;
+        }
+        const double end = static_cast<double>(last + 1) * step;
+        // Nothing of this side was seen, or a leaf goes on from it.
+        if (end < min_thickness || end > max_thickness) continue;
+        depth = std::min(depth.value_or(end), end);
+    }
+    return depth;
 }
 
 void OpenLeafFinder::widen_to_hinge(const WallFace& face, WallRectangle& hole) const {

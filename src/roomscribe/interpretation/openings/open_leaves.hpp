@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -22,8 +23,8 @@ struct OpenLeafSide {
     Eigen::Vector2d free_edge = Eigen::Vector2d::Zero();
 };
 
-/// Leaves that stand open or ajar, told among the upright patches of a map by their hinge at a
-/// side of a hole. What is handed over must outlive it.
+/// Leaves told among the upright patches of a map: those that stand open or ajar by their hinge at
+/// a side of a hole, closed ones by how much of it they fill. What is handed over must outlive it.
 class OpenLeafFinder {
   public:
     OpenLeafFinder(const SurfaceSample& sample, std::span<const PlanarPatch> patches,
@@ -34,6 +35,17 @@ class OpenLeafFinder {
     /// of it. The lining of that side, as deep as the wall, may go on in the leaf's plane.
     std::vector<OpenLeafSide> find(const WallFace& face, const WallRectangle& hole,
                                    double thickness) const;
+
+    /// m behind the face, of a closed leaf: patches parallel to the wall and no deeper than leaves
+    /// lie, which fill 0.4 of the hole at one depth. However aslant it was seen, a reveal lies
+    /// across the wall, and a frame fills less.
+    std::optional<double> closed_leaf_depth(const WallFace& face, const WallRectangle& hole) const;
+
+    /// m behind the face, to which the sides of a hole go on without a gap, in [0.1,
+    /// max_thickness]: where the room behind was not seen, that tells the wall's thickness. The
+    /// lesser of both, as a leaf that stands open may go on in the plane of one.
+    std::optional<double> lining_depth(const WallFace& face, const WallRectangle& hole,
+                                       double max_thickness) const;
 
     /// A leaf that stands ajar hides a part of its hole: that reaches to the hinge then.
     void widen_to_hinge(const WallFace& face, WallRectangle& hole) const;

@@ -249,9 +249,12 @@ void OpeningFinder::judge_way(const HoleEvidence& evidence, const HoleSigns& sig
     const bool is_glazed = evidence.lost >= min_lost ||
                            (relief.has_rays && evidence.through_share >= 0.3) ||
                            (signs.shows_outdoors && evidence.opaque <= 1.0 - min_outdoors);
-    if (signs.is_closed && (is_indoors || !is_glazed || !signs.is_pane)) {
+    // Of a leaf deep in its wall, seen aslant, most rays show the reveals.
+    const std::optional<double> leaf_depth =
+        leaves_.closed_leaf_depth(rooms.faces[opening.face], opening.hole);
+    if (leaf_depth || (signs.is_closed && (is_indoors || !is_glazed || !signs.is_pane))) {
         opening.rule = "leaf of a door's size in the wall, on the floor";
-        opening.depth = evidence.depth;
+        opening.depth = leaf_depth.value_or(evidence.depth);
         opening.confidence = 0.9;
     } else if (!is_indoors && is_glazed && signs.is_pane) {
         // A door to a room that was not seen otherwise shows it.
@@ -269,7 +272,9 @@ void OpeningFinder::judge_way(const HoleEvidence& evidence, const HoleSigns& sig
 void OpeningFinder::judge_open_way(WallOpening& opening) const {
     const StoreyLayout& rooms = layout(opening.storey);
     const WallFace& face = rooms.faces[opening.face];
-    const double thickness = thickness_at(rooms, face, opening.hole).value_or(usual_thickness);
+    std::optional<double> known = thickness_at(rooms, face, opening.hole);
+    if (!known) known = leaves_.lining_depth(face, opening.hole, max_thickness);
+    const double thickness = known.value_or(usual_thickness);
     opening.open_leaves = leaves_.find(face, opening.hole, thickness);
     if (!can_close(opening.open_leaves, opening.hole)) opening.open_leaves.clear();
     opening.is_open = true;
@@ -279,15 +284,23 @@ void OpeningFinder::judge_open_way(WallOpening& opening) const {
         opening.confidence = 0.85;
         return;
     }
-    // Double doors are rarer than wide passages, and show a leaf more easily.
-    const bool is_wide = opening.hole.width() > widest_usual_leaf;
     opening.depth = 0.5 * thickness;
-    opening.type = is_wide ? OpeningType::passage : OpeningType::door;
-    opening.rule = is_wide ? "hole in the wall down to the floor, wider than a leaf"
-                           : "hole of a door's size in the wall, on the floor";
-    opening.alternative =
-        is_wide ? "double door whose leaves were not seen" : "passage without a leaf";
     opening.confidence = 0.6;
+    const double height = opening.hole.top - rooms.floor_height;
+    if (opening.hole.width() > widest_usual_leaf) {
+        // Double doors are rarer than wide passages, and show a leaf more easily.
+        opening.type = OpeningType::passage;
+        opening.rule = "hole in the wall down to the floor, wider than a leaf";
+        opening.alternative = "double door whose leaves were not seen";
+    } else if (height > tallest_usual_leaf + cell_size_) {
+        opening.type = OpeningType::passage;
+        opening.rule = "hole in the wall down to the floor, higher than a leaf";
+        opening.alternative = "door whose leaf was not seen";
+    } else {
+        opening.type = OpeningType::door;
+        opening.rule = "hole of a door's size in the wall, on the floor";
+        opening.alternative = "passage without a leaf";
+    }
 }
 
 /// Whether a hole above the floor, or a glazed one, is a window.
@@ -361,6 +374,7 @@ std::optional<WallOpening> OpeningFinder::judge(std::size_t storey, std::size_t 
         }
     }
     if (signs.above_floor <= max_rail && hole.height() >= min_glazing_height &&
+        hole.top + usual_rail <= rooms.floor_height + max_door_height &&
         hole.width() >= min_glazing_width && hole.width() <= max_leaf_width &&
         !signs.shows_outdoors && is_indoors_behind(rooms, face, hole)) {
         make_glazed_door(rooms.floor_height, opening);
@@ -391,7 +405,7 @@ void OpeningFinder::add_flat_doors(std::size_t storey, std::size_t number, const
             });
         if (is_known) continue;
         opening.frame_width = casing_width;
-        opening.depth = std::max(0.0, -door.height);
+        opening.depth = -door.height;
         opening.room_behind = room_behind(rooms, rooms.faces[number], opening.hole);
         opening.rule = "leaf of a door's size nearly in the plane of the wall, on the floor";
         opening.coverage = 1.0;

@@ -31,7 +31,7 @@ struct WallOpening {
     std::size_t face = 0;      ///< of the storey's faces
     std::size_t storey = 0;    ///< of RoomSurfaces::storeys
     WallRectangle hole;        ///< a door's leaf, or a window's hole
-    double depth = 0.0;        ///< m behind the face, of the leaf or the pane
+    double depth = 0.0;        ///< m behind the face, of leaf or pane; < 0: before it
     double frame_depth = 0.0;  ///< m behind the face, of a window's frame and mullions
     double frame_width = 0.0;  ///< m; around a leaf, within a window's hole; 0 for none
     bool is_open = false;      ///< a door that stands open
