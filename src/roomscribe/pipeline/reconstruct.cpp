@@ -123,14 +123,17 @@ class StageReporter {
     const Context& context_;
 };
 
-/// Doors' leaves, furniture's fronts, and what may be one that nothing else was told of.
-/// `num_before`: components of the scene before the furniture's.
+/// Doors' leaves, windows' sashes, furniture's fronts, and what may be one that nothing else was
+/// told of. `num_before`: components of the scene before the furniture's.
 std::vector<MountingFace> faces_for_fixtures(const SurfaceSample& sample,
                                              std::span<const PlanarPatch> patches,
                                              const RoomSurfaces& surfaces, const Openings& openings,
                                              const Furniture& furniture, std::size_t num_before) {
     std::vector<MountingFace> faces =
         mounting_faces_of_doors(sample, patches, surfaces, openings, surfaces.surfaces.size());
+    const std::vector<MountingFace> windows =
+        mounting_faces_of_windows(surfaces, openings, surfaces.surfaces.size());
+    faces.insert(faces.end(), windows.begin(), windows.end());
     for (MountingFace face : furniture.fronts) {
         face.component += num_before;
         faces.push_back(face);

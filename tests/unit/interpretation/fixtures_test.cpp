@@ -208,6 +208,43 @@ TEST(FindFixtures, CallsALevelBarOnALeafALever) {
     EXPECT_TRUE(find(front_with_bar(), leaf).empty());
 }
 
+/// A frame, and 15 mm before it a sash of stiles 70 mm wide, about a pane that returns nothing.
+FrontScan window_scan() {
+    FrontScan scan(0.002);
+    for (const double left : {0.05, 0.48})
+        scan.add(left, left + 0.07, 0.1, 0.8, 0.015, 0.006);
+    scan.add(0.0, 0.05, 0.1, 0.8, 0.0, 0.006);
+    scan.add(0.55, 0.6, 0.1, 0.8, 0.0, 0.006);
+    return scan;
+}
+
+MountingFace sashes() {
+    MountingFace window = front();
+    window.is_window = true;
+    return window;
+}
+
+TEST(FindFixtures, FindsTheUprightLeverOfASash) {
+    FrontScan scan = window_scan();
+    std::erase_if(scan.map.cloud.positions, [](const Eigen::Vector3f& point) {
+        return std::abs(point.y() - 0.085F) < 0.01F && std::abs(point.z() - 0.455F) < 0.055F;
+    });
+    scan.add(0.075, 0.095, 0.4, 0.51, 0.065, 0.006);
+    const std::vector<Fixture> fixtures = find(scan, sashes());
+    ASSERT_EQ(fixtures.size(), 1U);
+    EXPECT_EQ(fixtures[0].component.kind, "lever_handle");
+    EXPECT_NEAR(fixtures[0].component.box->center.z(), 0.455, 0.01);
+    EXPECT_GT(std::abs(fixtures[0].component.box->axes[0].z()), 0.999);
+}
+
+TEST(FindFixtures, FindsNothingOnASashWithoutALever) {
+    EXPECT_TRUE(find(window_scan(), sashes()).empty());
+    // Bars, as furniture has, are no levers.
+    FrontScan scan = window_scan();
+    scan.add(0.075, 0.095, 0.2, 0.6, 0.065, 0.006);
+    EXPECT_TRUE(find(scan, sashes()).empty());
+}
+
 TEST(FindFixtures, MovesWithTheMap) {
     const FrontScan scan = front_with_bar();
     Transform motion = Transform::Identity();
