@@ -543,6 +543,39 @@ PieceForm upright_form(double length, double width, double bottom, double top) {
     return form;
 }
 
+/// Voxels of the side x = 0 of a top 1.8 m long at 0.87 m, in columns and rows of 4 cm.
+bool is_closed_by(double left, double right, double low) {
+    constexpr double voxel_size = 0.04;
+    FurnitureVoxels all;
+    all.reach = 2.0 * voxel_size;
+    PieceDraft draft;
+    for (double y = left; y < right; y += voxel_size) {
+        for (double z = low; z < 0.85; z += voxel_size) {
+            FurnitureVoxel voxel;
+            voxel.place = {0.0, y, z};
+            voxel.height = z;
+            voxel.is_upright = true;
+            draft.voxels.push_back(static_cast<std::uint32_t>(all.voxels.size()));
+            all.voxels.push_back(voxel);
+        }
+    }
+    PieceForm form;
+    form.rectangle.axis = Eigen::Vector2d::UnitY();
+    form.rectangle.length = 1.8;
+    form.rectangle.width = 0.7;
+    form.seat = 0.87;
+    FrontSide side;
+    side.plane = {Eigen::Vector3d::UnitX(), 0.0};
+    side.along = Eigen::Vector3d::UnitY();
+    return closes_piece(all, draft, form, side, Eigen::Matrix3d::Identity());
+}
+
+TEST(ClosesPiece, TellsFrontsSeenFromAboveFromAnApronAndASidePanel) {
+    EXPECT_TRUE(is_closed_by(0.0, 1.8, 0.6));
+    EXPECT_FALSE(is_closed_by(0.0, 1.8, 0.75));
+    EXPECT_FALSE(is_closed_by(0.0, 0.5, 0.1));
+}
+
 TEST(JudgePiece, TakesAFrontForACabinetOnlyAtItsDepthBeforeAWall) {
     PieceForm front = upright_form(0.6, 0.06, 0.07, 1.0);
     EXPECT_LT(judge_piece(front).confidence, 0.5);

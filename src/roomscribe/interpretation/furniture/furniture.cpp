@@ -127,10 +127,11 @@ class FurnitureBuilder {
         result.components.push_back(std::move(piece));
         add_top(draft, verdict, id, result);
         const Eigen::Vector3d off_wall(form.off_wall.x(), form.off_wall.y(), 0.0);
-        if (!has_fronts(verdict.kind)) return;
+        const bool may_be_closed = is_table_like(verdict.kind);
+        if (!has_fronts(verdict.kind) && !may_be_closed) return;
         auto side =
             find_front_side(all_, draft, form, patches_, axes_, axes_.transpose() * off_wall);
-        if (!side) return;
+        if (!side || (may_be_closed && !closes_piece(all_, draft, form, *side, axes_))) return;
         side->piece = number;
         sides_.push_back(std::move(*side));
     }
@@ -170,6 +171,12 @@ class FurnitureBuilder {
     static bool is_flat_on_top(std::string_view kind) {
         constexpr std::array<std::string_view, 5> kinds{"tv_unit", "bench", "coffee_table",
                                                         "nightstand", "cabinet"};
+        return std::find(kinds.begin(), kinds.end(), kind) != kinds.end();
+    }
+
+    /// What a piece with fronts is taken for of which little more than the top was seen.
+    static bool is_table_like(std::string_view kind) {
+        constexpr std::array<std::string_view, 4> kinds{"table", "desk", "coffee_table", "bench"};
         return std::find(kinds.begin(), kinds.end(), kind) != kinds.end();
     }
 

@@ -249,6 +249,31 @@ std::optional<FrontSide> find_front_side(const FurnitureVoxels& all, const Piece
     return best;
 }
 
+bool closes_piece(const FurnitureVoxels& all, const PieceDraft& draft, const PieceForm& form,
+                  const FrontSide& side, const Eigen::Matrix3d& room_from_map) {
+    constexpr double min_height = 0.2;
+    constexpr double min_share = 0.5;
+    const Eigen::Vector3d normal = room_from_map * side.plane.normal;
+    const Eigen::Vector3d along = room_from_map * side.along;
+    constexpr double column_width = 0.1;
+    std::map<int, std::size_t> columns;
+    for (const std::uint32_t i : draft.voxels) {
+        const FurnitureVoxel& voxel = all.voxels[i];
+        const double off = normal.dot(voxel.place) - side.plane.offset;
+        if (!voxel.is_upright || std::abs(off) > max_gap_depth || voxel.height >= form.seat)
+            continue;
+        ++columns[static_cast<int>(std::floor(along.dot(voxel.place) / column_width))];
+    }
+    const double cell_area = 0.25 * all.reach * all.reach;
+    const auto num_closed = std::count_if(columns.begin(), columns.end(), [&](const auto& column) {
+        return cell_area * static_cast<double>(column.second) >= min_height * column_width;
+    });
+    const PlanRectangle& plan = form.rectangle;
+    const double length = plan.length * std::abs(plan.axis.dot(along.head<2>())) +
+                          plan.width * std::abs(plan.across().dot(along.head<2>()));
+    return column_width * static_cast<double>(num_closed) >= min_share * length;
+}
+
 std::vector<FrontPanel> find_front_panels(const PointCloud& map, const SurfaceSample& sample,
                                           std::span<const FrontSide> sides,
                                           const Eigen::Vector3d& up) {

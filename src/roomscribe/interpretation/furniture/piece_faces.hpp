@@ -55,6 +55,12 @@ std::optional<FrontSide> find_front_side(const FurnitureVoxels& all, const Piece
                                          const Eigen::Matrix3d& room_from_map,
                                          const Eigen::Vector3d& to_room);
 
+/// Whether a side closes the piece below its top, as fronts do: over half of its length it was seen
+/// 0.2 m high and more, wherever, for what is seen from above ends half-way down. The aprons of
+/// tables are 0.08 to 0.12 m high, and legs are few.
+bool closes_piece(const FurnitureVoxels& all, const PieceDraft& draft, const PieceForm& form,
+                  const FrontSide& side, const Eigen::Matrix3d& room_from_map);
+
 /// The panels of each front side. Its extent is that of the map's points that lie on it. Where
 /// points lie a few millimetres to centimetres deeper along a straight line from edge to edge, it
 /// is parted there: rays enter the gaps of 3 to 5 mm between fronts. One line after another, the
