@@ -49,7 +49,7 @@ TEST(Suites, ASceneIsRunAndScored) {
     EXPECT_TRUE(both.from_scans.registration.has_value());
     ASSERT_TRUE(both.from_true_poses.has_value());
     EXPECT_TRUE(both.from_true_poses->detections.has_value());
-    EXPECT_FALSE(both.from_true_poses->registration->anchor.has_value());
+    EXPECT_FALSE(both.from_true_poses->registration.has_value());
     const SuiteSceneResult poses = run_suite_scene(scene, true);
     EXPECT_FALSE(poses.from_scans.detections.has_value());
     EXPECT_FALSE(poses.from_true_poses.has_value());

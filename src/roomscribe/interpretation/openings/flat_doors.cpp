@@ -176,7 +176,7 @@ class FlatDoorSearch {
         const int columns = is_left ? door.left : relief_.num_columns - door.right;
         Side side;
         side.leaf = beside(-gap - inner, -gap);
-        side.is_corner = columns <= casing;
+        side.is_corner = relief_.has_rays && columns <= casing;
         side.casing = side.is_corner ? std::nullopt : beside(0, casing - gap);
         side.wall = side.is_corner ? beside(0, columns - gap)
                                    : beside(casing, std::min(columns, casing + outer));
@@ -231,6 +231,8 @@ class FlatDoorSearch {
     /// on up there. A corner closely beside the leaf hides one side.
     double proud_contrast(const CellRectangle& door, const Sum& leaf,
                           const std::array<Side, 3>& sides, double least) const {
+        // Without rays nobody knows what stands before it.
+        if (!relief_.has_rays) return 0.0;
         if (leaf.covered > max_covered * leaf.count) return 0.0;
         double contrast = std::numeric_limits<double>::infinity();
         double lowest = max_proud;

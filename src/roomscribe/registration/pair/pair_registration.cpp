@@ -131,11 +131,12 @@ RegistrationLink register_pair(const PreparedScan& source, const PreparedScan& t
                              propose_from_surfaces(source, target, scale, settings, context), scale,
                              settings, context);
     }
-    constexpr double enough_evidence = 15.0;
-    const bool is_supported_already =
-        !poses.empty() && poses.front().support.evidence() >= enough_evidence;
+    // Where people walk about, their contradictions may push the right pose off an exhaustive list.
     const PoseSearch search = search_of(source, target, settings);
-    if (!is_supported_already && search != PoseSearch::exhaustive) {
+    const double enough_evidence = search == PoseSearch::exhaustive ? 0.0 : 15.0;
+    const bool is_supported_already =
+        !poses.empty() && poses.front().support.evidence() > enough_evidence;
+    if (!is_supported_already) {
         for (VerifiedPose& pose :
              verify_poses(source, target,
                           propose_from_matches(source, target, scale, seed, settings, context),
