@@ -124,8 +124,7 @@ std::optional<double> OpenLeafFinder::closed_leaf_depth(const WallFace& face,
     const int rows = std::max(1, static_cast<int>(std::lround(hole.height() / cell)));
     std::array<std::vector<int>, num_depth_bins> cells;
     const FaceAxes axes(face, up_);
-    for (std::size_t number = 0; number < patches_.size(); ++number) {
-        const PlanarPatch& patch = patches_[number];
+    for (const PlanarPatch& patch : patches_) {
         if (!is_upright(patch)) continue;
         if (std::abs(patch.plane.normal.dot(face.plane.normal)) < std::cos(max_turn)) continue;
         const double middle = -face.plane.signed_distance(patch.centroid);
