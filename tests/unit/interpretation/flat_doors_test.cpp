@@ -47,36 +47,36 @@ void expect_door(const FlatDoor& door, double start, double end) {
     EXPECT_NEAR(door.cells.right * cell_size, end, 0.11);
 }
 
+/// The one door of a wall; where there is another number of them, none.
+FlatDoor only_door(const WallRelief& wall, double start, double end) {
+    const std::vector<FlatDoor> doors = find_flat_doors(wall);
+    EXPECT_EQ(doors.size(), 1U);
+    if (doors.size() != 1) return {};
+    expect_door(doors[0], start, end);
+    return doors[0];
+}
+
 TEST(FlatDoors, AreFoundByLeafAndCasing) {
-    const auto doors =
-        find_flat_doors(wall_with([](double x, double z) { return cased_door(x, z, 1.5, 2.4); }));
-    ASSERT_EQ(doors.size(), 1U);
-    expect_door(doors[0], 1.5, 2.4);
-    EXPECT_NEAR(doors[0].cells.high * cell_size, 2.0, 1.5 * cell_size);
-    EXPECT_TRUE(doors[0].has_lintel);
+    const FlatDoor door = only_door(
+        wall_with([](double x, double z) { return cased_door(x, z, 1.5, 2.4); }), 1.5, 2.4);
+    EXPECT_NEAR(door.cells.high * cell_size, 2.0, 1.5 * cell_size);
+    EXPECT_TRUE(door.has_lintel);
     EXPECT_TRUE(find_flat_doors(wall_with([](double, double) { return 0.0; })).empty());
 }
 
 TEST(FlatDoors, NeedNoLintelWhereNobodyLookedUp) {
-    const auto doors = find_flat_doors(
-        wall_with([](double x, double z) { return cased_door(x, z, 1.5, 2.4); }, 1.9));
-    ASSERT_EQ(doors.size(), 1U);
-    expect_door(doors[0], 1.5, 2.4);
-    EXPECT_FALSE(doors[0].has_lintel);
+    const WallRelief wall =
+        wall_with([](double x, double z) { return cased_door(x, z, 1.5, 2.4); }, 1.9);
+    EXPECT_FALSE(only_door(wall, 1.5, 2.4).has_lintel);
 }
 
 TEST(FlatDoors, ShowBetweenTheLinesOfACoarseScanner) {
-    const auto doors = find_flat_doors(
-        wall_with([](double x, double z) { return cased_door(x, z, 1.5, 2.4); }, 2.6, 3));
-    ASSERT_EQ(doors.size(), 1U);
-    expect_door(doors[0], 1.5, 2.4);
+    only_door(wall_with([](double x, double z) { return cased_door(x, z, 1.5, 2.4); }, 2.6, 3), 1.5,
+              2.4);
 }
 
 TEST(FlatDoors, StandCloseBesideACorner) {
-    const auto doors =
-        find_flat_doors(wall_with([](double x, double z) { return cased_door(x, z, 0.2, 1.1); }));
-    ASSERT_EQ(doors.size(), 1U);
-    expect_door(doors[0], 0.2, 1.1);
+    only_door(wall_with([](double x, double z) { return cased_door(x, z, 0.2, 1.1); }), 0.2, 1.1);
 }
 
 TEST(FlatDoors, AreNotTheWallBetweenThem) {
@@ -91,10 +91,7 @@ TEST(FlatDoors, AreNotTheWallBetweenThem) {
 }
 
 TEST(FlatDoors, HaveACasingWhereTheyHaveTwoLeaves) {
-    const auto doors =
-        find_flat_doors(wall_with([](double x, double z) { return cased_door(x, z, 1.0, 2.6); }));
-    ASSERT_EQ(doors.size(), 1U);
-    expect_door(doors[0], 1.0, 2.6);
+    only_door(wall_with([](double x, double z) { return cased_door(x, z, 1.0, 2.6); }), 1.0, 2.6);
     const auto none = find_flat_doors(
         wall_with([](double x, double z) { return x > 1.0 && x < 2.6 && z < 2.0 ? -0.03 : 0.0; }));
     EXPECT_TRUE(none.empty());
@@ -107,19 +104,15 @@ double proud_door(double x, double z, double start, double end) {
 }
 
 TEST(FlatDoors, StandProudOfTheWallWhereTheyOpenTo) {
-    const auto doors =
-        find_flat_doors(wall_with([](double x, double z) { return proud_door(x, z, 1.5, 2.4); }));
-    ASSERT_EQ(doors.size(), 1U);
-    expect_door(doors[0], 1.5, 2.4);
-    EXPECT_NEAR(doors[0].cells.high * cell_size, 2.0, 2.0 * cell_size);
-    EXPECT_NEAR(doors[0].height, 0.03, 0.005);
+    const FlatDoor door = only_door(
+        wall_with([](double x, double z) { return proud_door(x, z, 1.5, 2.4); }), 1.5, 2.4);
+    EXPECT_NEAR(door.cells.high * cell_size, 2.0, 2.0 * cell_size);
+    EXPECT_NEAR(door.height, 0.03, 0.005);
 }
 
 TEST(FlatDoors, StandProudWhereACornerHidesASide) {
-    const auto doors =
-        find_flat_doors(wall_with([](double x, double z) { return proud_door(x, z, 0.07, 0.95); }));
-    ASSERT_EQ(doors.size(), 1U);
-    expect_door(doors[0], 0.07, 0.95);
+    only_door(wall_with([](double x, double z) { return proud_door(x, z, 0.07, 0.95); }), 0.07,
+              0.95);
 }
 
 TEST(FlatDoors, AreNotBoardsPiersNorWardrobes) {
@@ -145,6 +138,20 @@ TEST(FlatDoors, AreNotTheBackOfAShelf) {
         }
     }
     EXPECT_TRUE(find_flat_doors(relief).empty());
+}
+
+/// A board ends above the desk that hides what is below; without rays nobody knows what does.
+TEST(FlatDoors, StandProudWhereTheFloorEndIsSeenAndRaysAre) {
+    const auto proud = [](double x, double z) { return proud_door(x, z, 1.5, 2.4); };
+    WallRelief behind_desk = wall_with(proud);
+    for (int row = 0; row < 14; ++row) {
+        for (int column = 0; column < behind_desk.num_columns; ++column)
+            behind_desk.cells[behind_desk.index(column, row)] = {};
+    }
+    EXPECT_TRUE(find_flat_doors(behind_desk).empty());
+    WallRelief of_unknown_scanner = wall_with(proud);
+    of_unknown_scanner.has_rays = false;
+    EXPECT_TRUE(find_flat_doors(of_unknown_scanner).empty());
 }
 
 }  // namespace

@@ -204,13 +204,15 @@ class FlatDoorSearch {
     }
 
     /// Whether all of a leaf lies `height` before the wall: boards and pictures hang above the
-    /// floor and are smaller. Of quarters of its height and halves of its width, most must be seen.
+    /// floor and are smaller. Of quarters of its height and halves of its width, most must be seen,
+    /// and one at the floor, where a desk may hide that a board ends above it.
     bool is_even(const CellRectangle& door, const Sum& leaf, double height) const {
         constexpr int rows = 4;
         constexpr int columns = 2;
         constexpr int min_seen = 5;
         const int low = cells(0.1);
         int num_seen = 0;
+        int num_at_floor = 0;
         for (int i = 0; i < rows * columns; ++i) {
             const int row = i / columns;
             const int column = i % columns;
@@ -222,8 +224,9 @@ class FlatDoorSearch {
             if (!part) continue;
             if (std::abs(part->mean() - leaf.mean()) > max_bend * height) return false;
             ++num_seen;
+            num_at_floor += row == 0 ? 1 : 0;
         }
-        return num_seen >= min_seen;
+        return num_seen >= min_seen && num_at_floor > 0;
     }
 
     /// By how many least steps a leaf stands before the wall on all its sides, as rebated ones do

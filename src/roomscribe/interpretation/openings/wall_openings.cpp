@@ -252,7 +252,7 @@ void OpeningFinder::judge_way(const HoleEvidence& evidence, const HoleSigns& sig
     // Of a leaf deep in its wall, seen aslant, most rays show the reveals.
     const std::optional<double> leaf_depth =
         leaves_.closed_leaf_depth(rooms.faces[opening.face], opening.hole);
-    if (leaf_depth || (signs.is_closed && (is_indoors || !is_glazed || !signs.is_pane))) {
+    if ((leaf_depth || signs.is_closed) && (is_indoors || !is_glazed || !signs.is_pane)) {
         opening.rule = "leaf of a door's size in the wall, on the floor";
         opening.depth = leaf_depth.value_or(evidence.depth);
         opening.confidence = 0.9;
