@@ -22,9 +22,12 @@ namespace fs = std::filesystem;
 /// that.
 constexpr double largest_time_difference = 0.02;
 constexpr std::size_t max_images = 100;
+/// What cameras write, beside 0, where they saw nothing: the end of 16 bits (7-Scenes).
+constexpr std::uint16_t no_depth = 65535;
 constexpr std::string_view list_cure = "write a time and a file name in each line";
 constexpr std::string_view camera_cure =
     "write fx fy cx cy, and steps per metre if they are not 1000, into intrinsics.txt beside it";
+constexpr std::string_view frames_cure = "name the images NAME.depth.png";
 
 struct Camera {
     double fx = 525.0;
@@ -48,6 +51,12 @@ Camera read_camera(const fs::path& path) {
             numbers.push_back(*number);
         }
     }
+    if (numbers.size() == 9) {
+        const std::vector<double>& m = numbers;  // row by row
+        if (m[1] != 0.0 || m[3] != 0.0 || m[6] != 0.0 || m[7] != 0.0 || m[8] != 1.0)
+            reader.fail_at_line("this is no camera's matrix", camera_cure);
+        numbers = {m[0], m[4], m[2], m[5]};
+    }
     if (numbers.size() == 4) numbers.push_back(1000.0);
     if (numbers.size() != 5 || numbers[0] <= 0.0 || numbers[1] <= 0.0 || numbers[4] <= 0.0) {
         reader.fail_at_line("these are no numbers of a camera", camera_cure);
@@ -64,7 +73,8 @@ FileContents place_pixels(const fs::path& path, const Camera& camera, PointsAs a
     for (std::size_t row = 0; row < image.rows; ++row) {
         for (std::size_t column = 0; column < image.columns; ++column) {
             const std::uint16_t steps = image.depths[row * image.columns + column];
-            const double z = steps > 0 ? steps / camera.steps_per_metre : std::nan("");
+            const bool is_none = steps == 0 || steps == no_depth;
+            const double z = is_none ? std::nan("") : steps / camera.steps_per_metre;
             const Eigen::Vector3d point((static_cast<double>(column) - camera.cx) / camera.fx * z,
                                         (static_cast<double>(row) - camera.cy) / camera.fy * z, z);
             cloud.positions.emplace_back(point.cast<float>());
@@ -134,20 +144,58 @@ class Trajectory {
     std::vector<double> times_;
 };
 
+/// Which of a folder's images are read: all, or so many evenly.
+std::vector<std::size_t> taken_images(std::size_t num_images) {
+    std::vector<std::size_t> taken(std::min(num_images, max_images));
+    for (std::size_t i = 0; i < taken.size(); ++i)
+        taken[i] = i * num_images / taken.size();
+    return taken;
+}
+
+void warn_of_left_images(std::size_t num_images, FileContents& image) {
+    if (num_images <= max_images) return;
+    image.warnings.push_back(
+        fmt::format("{} of {} images are taken, evenly", max_images, num_images));
+}
+
+constexpr std::string_view depth_suffix = ".depth.png";
+
+void add_depth_images(const fs::path& folder, std::vector<fs::path>& images) {
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+        if (entry.path().filename().string().ends_with(depth_suffix))
+            images.push_back(entry.path());
+    }
+}
+
+/// NAME.depth.png in a folder and in the folders right inside it, by their names.
+std::vector<fs::path> depth_images_of(const fs::path& folder) {
+    std::vector<fs::path> images;
+    add_depth_images(folder, images);
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+        if (entry.is_directory()) add_depth_images(entry.path(), images);
+    }
+    std::sort(images.begin(), images.end());
+    return images;
+}
+
 }  // namespace
 
 FileContents read_depth_image(const fs::path& path, PointsAs as, const Context& context) {
     context.throw_if_cancelled();
     fs::path own = path;
     own.replace_extension(".intrinsics.txt");
-    const fs::path common = path.parent_path() / "intrinsics.txt";
-    if (!fs::exists(own) && !fs::exists(common)) {
+    const fs::path candidates[] = {own, path.parent_path() / "intrinsics.txt",
+                                   path.parent_path() / frames_index};
+    const auto* const camera =
+        std::find_if(std::begin(candidates), std::end(candidates),
+                     [](const fs::path& candidate) { return fs::exists(candidate); });
+    if (camera == std::end(candidates)) {
         // A missing image is the better message.
         const MappedFile file(path, "depth image");
         throw IoError(path.string(), "depth image", {}, "the camera's numbers are not known",
                       std::string(camera_cure));
     }
-    return place_pixels(path, read_camera(fs::exists(own) ? own : common), as);
+    return place_pixels(path, read_camera(*camera), as);
 }
 
 std::vector<FileContents> read_tum_folder(const fs::path& folder, PointsAs as,
@@ -160,11 +208,10 @@ std::vector<FileContents> read_tum_folder(const fs::path& folder, PointsAs as,
     if (fs::exists(folder / "groundtruth.txt")) {
         trajectory.emplace(folder / "groundtruth.txt", context);
     }
-    const std::size_t num_images = std::min(list.size(), max_images);
     std::vector<FileContents> images;
-    for (std::size_t i = 0; i < num_images; ++i) {
+    for (const std::size_t i : taken_images(list.size())) {
         context.throw_if_cancelled();
-        const TimedFile& entry = list[i * list.size() / num_images];
+        const TimedFile& entry = list[i];
         FileContents image = place_pixels(folder / entry.name, camera, as);
         image.name = fs::path(entry.name).stem().string();
         if (trajectory) image.map_from_scan = trajectory->at(entry.time);
@@ -173,10 +220,30 @@ std::vector<FileContents> read_tum_folder(const fs::path& folder, PointsAs as,
                 "the camera's numbers are guessed (525 525 319.5 239.5 5000): write "
                 "intrinsics.txt");
         }
-        if (num_images < list.size()) {
-            image.warnings.push_back(
-                fmt::format("{} of {} images are taken, evenly", num_images, list.size()));
-        }
+        warn_of_left_images(list.size(), image);
+        images.push_back(std::move(image));
+    }
+    return images;
+}
+
+std::vector<FileContents> read_frames_folder(const fs::path& folder, PointsAs as,
+                                             const Context& context) {
+    const Camera camera = read_camera(folder / frames_index);
+    const std::vector<fs::path> files = depth_images_of(folder);
+    if (files.empty()) {
+        throw IoError(folder.string(), "depth images", {}, "there are none in it",
+                      std::string(frames_cure));
+    }
+    std::vector<FileContents> images;
+    for (const std::size_t i : taken_images(files.size())) {
+        context.throw_if_cancelled();
+        const std::string file = files[i].string();
+        const std::string stem = file.substr(0, file.size() - depth_suffix.size());
+        FileContents image = place_pixels(files[i], camera, as);
+        image.name = fs::path(stem).lexically_relative(folder).string();
+        const fs::path pose = stem + ".pose.txt";
+        if (fs::exists(pose)) image.map_from_scan = read_poses(pose, context).front();
+        warn_of_left_images(files.size(), image);
         images.push_back(std::move(image));
     }
     return images;

@@ -59,6 +59,7 @@ std::vector<FileContents> read_contents(const std::filesystem::path& path, Point
     if (std::filesystem::is_directory(path)) {
         const std::filesystem::path index = index_of_scans(path);
         if (index.filename() == tum_index) return read_tum_folder(path, as, context);
+        if (index.filename() == frames_index) return read_frames_folder(path, as, context);
         if (index.filename() == tilted_scans_index) {
             std::vector<FileContents> contents;
             contents.push_back(read_tilted_scans(index, as, context));
@@ -79,7 +80,8 @@ std::vector<FileContents> read_contents(const std::filesystem::path& path, Point
     const MappedFile file(path, "");
     throw IoError(file.path(), "", {}, fmt::format("the extension '{}' is unknown", extension),
                   "give a .pcd, .ply, .e57, .las, .ptx, .pts, .xyz, .txt, .asc, .csv, .npy, .obj, "
-                  ".png, .tilt, .bag, .3d or .vtk file, or a folder with depth.txt or scans.tilt");
+                  ".png, .tilt, .bag, .3d or .vtk file, or a folder with depth.txt, "
+                  "camera-intrinsics.txt or scans.tilt");
 }
 
 /// "hall.e57#2", or with the scan's own name.
@@ -149,7 +151,7 @@ FileSummary summarize(FileContents contents) {
 }  // namespace
 
 std::filesystem::path index_of_scans(const std::filesystem::path& path) {
-    for (const char* const index : {tum_index, tilted_scans_index}) {
+    for (const char* const index : {tum_index, frames_index, tilted_scans_index}) {
         if (std::filesystem::is_directory(path) && std::filesystem::exists(path / index)) {
             return path / index;
         }
@@ -158,7 +160,8 @@ std::filesystem::path index_of_scans(const std::filesystem::path& path) {
 }
 
 bool may_hold_poses(const std::filesystem::path& path) {
-    if (index_of_scans(path).filename() == tum_index) return true;
+    const std::filesystem::path index = index_of_scans(path).filename();
+    if (index == tum_index || index == frames_index) return true;
     const std::string extension = lower_extension(path);
     return extension == ".e57" || extension == ".ptx";
 }

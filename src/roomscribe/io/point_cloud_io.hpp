@@ -31,7 +31,8 @@ namespace roomscribe {
 //   .tilt   planar scans with tilts (7)          no                     grid, sensor pose
 //   .bag    ROS 1: PointCloud2, LaserScan (9)    no                     all (clouds); grid
 //   .png    a depth image of 16 bits (8)         no                     grid, sensor pose
-//   folder  with depth.txt (TUM RGB-D) (8),      no                     grid, pose
+//   folder  with depth.txt (TUM RGB-D) or        no                     grid, pose
+//           camera-intrinsics.txt (8),
 //           or with scans.tilt (7)
 //   .vtk    legacy points, ascii and binary      no                     nothing
 //

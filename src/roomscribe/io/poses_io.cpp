@@ -20,7 +20,8 @@ namespace {
 
 constexpr double rotation_tolerance = 1e-3;
 constexpr std::string_view cure =
-    "write 12 numbers a line (KITTI), 8 (TUM), or 6 in a .pose file (UOS)";
+    "write 12 numbers a line (KITTI), 8 (TUM), four lines of 4 (matrix), or 6 in a .pose file "
+    "(UOS)";
 
 bool is_pose_file(const std::filesystem::path& path) {
     std::string extension = path.extension().string();
@@ -53,11 +54,15 @@ Transform checked_pose(const ByteReader& reader, const Eigen::Matrix3d& rotation
     return pose;
 }
 
-std::optional<Transform> kitti_pose(const ByteReader& reader, const std::vector<double>& row) {
-    if (std::all_of(row.begin(), row.end(), [](double value) { return std::isnan(value); })) {
+/// Of 12 numbers, or 16 with the last row of a 4x4 matrix.
+std::optional<Transform> matrix_pose(const ByteReader& reader, const std::vector<double>& numbers) {
+    const std::span<const double> upper = std::span(numbers).first(12);
+    if (std::none_of(upper.begin(), upper.end(), [](double value) { return std::isfinite(value); }))
         return std::nullopt;
-    }
-    const Eigen::Map<const Eigen::Matrix<double, 3, 4, Eigen::RowMajor>> matrix(row.data());
+    const Eigen::Map<const Eigen::Matrix<double, 3, 4, Eigen::RowMajor>> matrix(upper.data());
+    if (numbers.size() == 16 &&
+        Eigen::Map<const Eigen::RowVector4d>(numbers.data() + 12) != Eigen::RowVector4d(0, 0, 0, 1))
+        reader.fail_at_line("the matrix does not end with 0 0 0 1", cure);
     return checked_pose(reader, matrix.leftCols<3>(), matrix.col(3));
 }
 
@@ -94,17 +99,28 @@ std::vector<std::optional<Transform>> read_poses(const std::filesystem::path& pa
     ByteReader reader(file, "poses");
     if (is_pose_file(path)) return {read_uos_pose(reader)};
     std::vector<std::optional<Transform>> poses;
+    std::vector<double> matrix;
     std::size_t row_length = 0;
     while (!reader.at_end()) {
         context.throw_if_cancelled();
         const std::vector<double> row = read_numbers(reader);
         if (row.empty()) continue;
         if (row_length == 0) row_length = row.size();
-        if (row.size() != row_length || (row_length != 12 && row_length != 8)) {
+        const bool is_known = row_length == 12 || row_length == 8 || row_length == 4;
+        if (row.size() != row_length || !is_known) {
             reader.fail_at_line(fmt::format("{} numbers are no pose", row.size()), cure);
         }
-        poses.push_back(row_length == 12 ? kitti_pose(reader, row) : tum_pose(reader, row));
+        if (row_length == 8) {
+            poses.push_back(tum_pose(reader, row));
+            continue;
+        }
+        matrix.insert(matrix.end(), row.begin(), row.end());
+        const std::size_t length = row_length == 4 ? 16 : 12;
+        if (matrix.size() < length) continue;
+        poses.push_back(matrix_pose(reader, matrix));
+        matrix.clear();
     }
+    if (!matrix.empty()) reader.fail_at_line("the last matrix is cut off", cure);
     if (poses.empty()) reader.fail_at_line("there are no poses", cure);
     return poses;
 }

@@ -12,8 +12,9 @@
 namespace roomscribe {
 
 /// Reads one pose per scan, scan -> map, in file order. The format is told by the numbers:
-/// - 12 a line: KITTI, row-major 3x4 (roomscribe's own poses.txt). A line of nan is a scan without
-///   a place and gives an empty entry.
+/// - 12 a line: KITTI, row-major 3x4 (roomscribe's own poses.txt). A pose without a finite number
+///   is a scan without a place and gives an empty entry.
+/// - 4 a line: 4x4 matrices of four lines each, as 7-Scenes and 3DMatch have one for each frame.
 /// - 8 a line: TUM, time x y z qx qy qz qw; the time is dropped.
 /// - 6 in the whole file, named .pose: UOS, one pose, see uos.hpp for the frames.
 /// Empty lines and lines that begin with # are skipped. A rotation that is off by rounding is made
