@@ -131,6 +131,13 @@ class SetJoiner {
         return junction;
     }
 
+    /// All poses of the links between two sets were looked at.
+    PoseSearch search_of(const Junction& junction) const {
+        const RegistrationLink& link = links_[junction.link];
+        return are_cameras(scans_[link.source], scans_[link.target]) ? PoseSearch::narrow
+                                                                     : PoseSearch::exhaustive;
+    }
+
     /// Empty if none is likely enough.
     std::optional<Junction> likeliest_junction() const {
         std::optional<Junction> likeliest;
@@ -142,7 +149,7 @@ class SetJoiner {
                     if (&other != &junction) rival = std::max(rival, other.evidence);
                 }
                 const double probability =
-                    probability_of({junction.evidence, rival, PoseSearch::exhaustive});
+                    probability_of({junction.evidence, rival, search_of(junction)});
                 if (probability < highest) continue;
                 highest = probability;
                 likeliest = junction;

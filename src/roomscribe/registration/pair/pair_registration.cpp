@@ -18,7 +18,7 @@ namespace {
 /// Whether both scans are a camera's and the pose turns one on its side against the other.
 bool tilts_a_camera(const PreparedScan& source, const PreparedScan& target,
                     const Transform& target_from_source) {
-    if (!source.usual_up.is_camera || !target.usual_up.is_camera) return false;
+    if (!are_cameras(source, target)) return false;
     constexpr double max_tilt = radians(60.0);
     return target.usual_up.up.dot(target_from_source.linear() * source.usual_up.up) <
            std::cos(max_tilt);
@@ -100,11 +100,18 @@ void put_tilted_last(const PreparedScan& source, const PreparedScan& target,
     });
 }
 
+/// Whether the list of surfaces' poses is complete.
+bool lists_all_poses(const PreparedScan& source, const PreparedScan& target,
+                     const PairRegistrationSettings& settings) {
+    return settings.initial_alignment == InitialAlignment::surfaces &&
+           faces_three_ways(source.directions) && faces_three_ways(target.directions);
+}
+
 PoseSearch search_of(const PreparedScan& source, const PreparedScan& target,
                      const PairRegistrationSettings& settings) {
-    if (settings.initial_alignment != InitialAlignment::surfaces) return PoseSearch::narrow;
-    if (faces_three_ways(source.directions) && faces_three_ways(target.directions))
-        return PoseSearch::exhaustive;
+    if (are_cameras(source, target) || settings.initial_alignment != InitialAlignment::surfaces)
+        return PoseSearch::narrow;
+    if (lists_all_poses(source, target, settings)) return PoseSearch::exhaustive;
     return see_around(source, target) ? PoseSearch::wide : PoseSearch::narrow;
 }
 
@@ -132,8 +139,7 @@ RegistrationLink register_pair(const PreparedScan& source, const PreparedScan& t
                              settings, context);
     }
     // Where people walk about, their contradictions may push the right pose off an exhaustive list.
-    const PoseSearch search = search_of(source, target, settings);
-    const double enough_evidence = search == PoseSearch::exhaustive ? 0.0 : 15.0;
+    const double enough_evidence = lists_all_poses(source, target, settings) ? 0.0 : 15.0;
     const bool is_supported_already =
         !poses.empty() && poses.front().support.evidence() > enough_evidence;
     if (!is_supported_already) {
@@ -152,6 +158,7 @@ RegistrationLink register_pair(const PreparedScan& source, const PreparedScan& t
         return nothing;
     }
     const std::vector<const VerifiedPose*> rivals = find_rivals(source, poses, scale, settings);
+    const PoseSearch search = search_of(source, target, settings);
     const auto evidence = [&](const VerifiedPose& pose) {
         return evidence_of(pose.support, source, target, search);
     };

@@ -21,15 +21,16 @@ double probability_without_rivals(const PoseStanding& standing) {
         case PoseSearch::narrow:
             break;
     }
-    return logistic(0.07 * (standing.evidence - 6.7));
+    return logistic(0.2 * (standing.evidence - 16.0));
 }
 
 double probability_of(const PoseStanding& standing) {
     const double alone = probability_without_rivals(standing);
+    const bool is_narrow = standing.search == PoseSearch::narrow;
     // A frame that has no rival may have missed them all.
-    if (standing.search != PoseSearch::narrow && !standing.rival) return alone;
+    if (!is_narrow && !standing.rival) return alone;
     const double lead = standing.evidence - standing.rival.value_or(0.0);
-    return alone * logistic(0.3 * (lead - 6.0));
+    return alone * logistic(0.3 * (lead - (is_narrow ? 12.0 : 6.0)));
 }
 
 }  // namespace roomscribe

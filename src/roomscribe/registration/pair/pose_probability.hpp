@@ -6,12 +6,13 @@
 
 namespace roomscribe {
 
-/// Whether all poses were looked at that bring the scans' surfaces together. Where the right one
-/// may have been missed, no lead tells.
+/// How much a search tells: whether all poses were looked at that bring the scans' surfaces
+/// together, and how much of the place these saw. Where the right one may have been missed, no lead
+/// tells; what a camera sees of a corner or a row of like doors fits many.
 enum class PoseSearch : std::uint8_t {
-    exhaustive,  ///< both scans face three ways
+    exhaustive,  ///< both scans face three ways, and not both are frames of cameras
     wide,        ///< else, of scans that see around themselves: little is hidden from both
-    narrow       ///< else: frames of cameras
+    narrow       ///< else, and all frames of cameras
 };
 
 /// How the best pose of two scans stands, in pieces of detail (PoseSupport::evidence).

@@ -137,6 +137,10 @@ ScanFeatures describe_scan(const Scan& scan, const SurfaceView& surface,
 
 }  // namespace
 
+bool are_cameras(const PreparedScan& a, const PreparedScan& b) {
+    return a.usual_up.is_camera && b.usual_up.is_camera;
+}
+
 RegistrationScale joint_scale(const PreparedScan& a, const PreparedScan& b) {
     RegistrationScale scale = a.scale;
     scale.fine_voxel = std::max(scale.fine_voxel, b.scale.fine_voxel);

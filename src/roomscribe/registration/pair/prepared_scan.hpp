@@ -80,6 +80,9 @@ struct PreparedScan {
     UsualUp usual_up;                          ///< in the scan's frame
 };
 
+/// Whether both are frames of cameras: all they see lies in a cone about the way they look.
+bool are_cameras(const PreparedScan& a, const PreparedScan& b);
+
 /// The noise and the spacing of the worse of two scans.
 RegistrationScale joint_scale(const PreparedScan& a, const PreparedScan& b);
 
