@@ -36,6 +36,11 @@ UsualUp usual_up(std::span<const Eigen::Vector3f> positions, const Eigen::Vector
     return {axes.col(2), false};
 }
 
+bool is_tilted(const UsualUp& source, const UsualUp& target, const Transform& target_from_source) {
+    constexpr double max_tilt = radians(60.0);
+    return target.up.dot(target_from_source.linear() * source.up) < std::cos(max_tilt);
+}
+
 Eigen::Vector3d common_up(std::span<const UsualUp> ups) {
     if (ups.empty()) return Eigen::Vector3d::Zero();
     Eigen::Vector3d mean = Eigen::Vector3d::Zero();

@@ -5,6 +5,8 @@
 
 #include <Eigen/Core>
 
+#include "roomscribe/geometry/transform.hpp"
+
 namespace roomscribe {
 
 /// Which way is up for a scanner that is mounted as most are. Nobody is bound to it: a scanner may
@@ -23,6 +25,10 @@ struct UsualUp {
 UsualUp usual_up(std::span<const Eigen::Vector3f> positions,
                  const Eigen::Vector3d& sensor = Eigen::Vector3d::Zero(),
                  const Eigen::Matrix3d& axes = Eigen::Matrix3d::Identity());
+
+/// Whether a pose, target from source, turns one scanner on its side against the other: by more
+/// than 60 degrees, 30 for each.
+bool is_tilted(const UsualUp& source, const UsualUp& target, const Transform& target_from_source);
 
 /// What those of all scanners of a map, in its frame, say together. The length says how much they
 /// are to be trusted: 1 for cameras, whose frames are told by what they see and which see little;

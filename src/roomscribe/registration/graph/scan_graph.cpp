@@ -13,6 +13,7 @@
 #include "roomscribe/registration/graph/link_forest.hpp"
 #include "roomscribe/registration/graph/pair_proposal.hpp"
 #include "roomscribe/registration/graph/pose_graph.hpp"
+#include "roomscribe/registration/graph/scanner_mounting.hpp"
 #include "roomscribe/registration/graph/set_joining.hpp"
 #include "roomscribe/registration/pair/pair_registration.hpp"
 #include "roomscribe/registration/pair/pose_support.hpp"
@@ -58,6 +59,7 @@ class LinkFinder {
     std::vector<RegistrationLink> run() && {
         link_known_neighbors();
         link_promising_pairs();
+        if (drop_tilted_poses(links_, usual_ups())) link_promising_pairs();
         settle_by_known_poses();
         join_sets(links_, scans_, pair_, context_);
         close_loops();
@@ -76,6 +78,13 @@ class LinkFinder {
             return link.source == source && link.target == target;
         });
         return found == links_.end() ? nullptr : &*found;
+    }
+
+    std::vector<UsualUp> usual_ups() const {
+        std::vector<UsualUp> ups;
+        for (const PreparedScan& scan : scans_)
+            ups.push_back(scan.usual_up);
+        return ups;
     }
 
     void register_without_guess(std::size_t source, std::size_t target) {

@@ -2,11 +2,9 @@
 #include "roomscribe/registration/pair/pair_registration.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 #include <vector>
 
-#include "roomscribe/core/units.hpp"
 #include "roomscribe/registration/pair/pose_probability.hpp"
 #include "roomscribe/registration/pair/pose_proposal.hpp"
 #include "roomscribe/registration/pair/pose_search.hpp"
@@ -18,10 +16,8 @@ namespace {
 /// Whether both scans are a camera's and the pose turns one on its side against the other.
 bool tilts_a_camera(const PreparedScan& source, const PreparedScan& target,
                     const Transform& target_from_source) {
-    if (!are_cameras(source, target)) return false;
-    constexpr double max_tilt = radians(60.0);
-    return target.usual_up.up.dot(target_from_source.linear() * source.usual_up.up) <
-           std::cos(max_tilt);
+    return are_cameras(source, target) &&
+           is_tilted(source.usual_up, target.usual_up, target_from_source);
 }
 
 bool see_around(const PreparedScan& source, const PreparedScan& target) {
