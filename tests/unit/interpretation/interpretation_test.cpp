@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include <gtest/gtest.h>
 
@@ -27,7 +28,9 @@ struct Interpretation {
     PointLabels labels;
 };
 
-Interpretation interpret(PointCloud cloud, const Context& context = {}) {
+/// `known_upright` is taken instead of what find_upright would say.
+Interpretation interpret(PointCloud cloud, const Context& context = {},
+                         const std::optional<Upright>& known_upright = {}) {
     Interpretation result;
     const ScanMap map = map_of_cloud({"room", std::move(cloud)});
     const ScanStatistics statistics = estimate_scan_statistics(map.cloud, context);
@@ -36,7 +39,8 @@ Interpretation interpret(PointCloud cloud, const Context& context = {}) {
                                        .cell_size = 2.0 * result.sample.spacing};
     result.patches = grow_planar_patches(result.sample.cloud, growing, context);
     const PrincipalAxes axes = estimate_principal_axes(result.patches, {}, context);
-    result.upright = find_upright(result.sample, result.patches, axes, {}, context);
+    result.upright = known_upright ? *known_upright
+                                   : find_upright(result.sample, result.patches, axes, {}, context);
     result.surfaces = find_room_surfaces(sample_rays(map), result.sample, result.patches,
                                          result.upright, {}, context);
     result.openings =
@@ -148,6 +152,47 @@ TEST(Interpretation, GivesTheSameBitsOnOneAndTwoThreads) {
     EXPECT_EQ(one.labels.instances, two.labels.instances);
     EXPECT_EQ(one.labels.confidences, two.labels.confidences);
     EXPECT_EQ(one.surfaces.room_from_map.matrix(), two.surfaces.room_from_map.matrix());
+}
+
+/// A room of 5 x 4 m under a roof: knee walls of 0.9 m, slopes of 45 degrees, level from 2.4 m.
+double attic_ceiling(double x) {
+    return 0.9 + std::min({x, 5.0 - x, 1.5});
+}
+
+TEST(Interpretation, UnderARoofTheSlopesAreOneCeilingWithTheLevelPart) {
+    constexpr double step = 0.02;
+    PointCloud cloud;
+    std::vector<Label> truth;
+    const auto add = [&](double x, double y, double z, Label label) {
+        cloud.positions.push_back(Eigen::Vector3d(x, y, z).cast<float>());
+        truth.push_back(label);
+    };
+    for (double y = 0.5 * step; y < 4.0; y += step) {
+        for (double x = 0.5 * step; x < 5.0; x += step) {
+            add(x, y, 0.0, Label::floor);
+            add(x, y, attic_ceiling(x), Label::ceiling);
+        }
+        for (double z = 0.5 * step; z < 0.9; z += step) {
+            add(0.0, y, z, Label::wall);
+            add(5.0, y, z, Label::wall);
+        }
+    }
+    for (double x = 0.5 * step; x < 5.0; x += step) {
+        for (double z = 0.5 * step; z < attic_ceiling(x); z += step) {
+            add(x, 0.0, z, Label::wall);
+            add(x, 4.0, z, Label::wall);
+        }
+    }
+    Upright upright;
+    upright.room_from_map.setIdentity();
+    upright.stop = UprightStop::decided;
+    const Interpretation result = interpret(std::move(cloud), {}, upright);
+    EXPECT_EQ(count(result.surfaces, Label::ceiling), 1);
+    EXPECT_EQ(count(result.surfaces, Label::wall), 4);
+    for (const Label label : {Label::floor, Label::ceiling, Label::wall})
+        EXPECT_GT(iou(truth, result.labels.labels, label), 0.93) << label_name(label);
+    ASSERT_EQ(result.surfaces.rooms.size(), 1U);
+    EXPECT_NEAR(result.surfaces.rooms[0].ceiling_height, 2.4, 0.02);
 }
 
 TEST(Interpretation, KeepsPointsWithoutPlaceUnknown) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "roomscribe/interpretation/rooms/level_surfaces.hpp"
 
+#include <cmath>
+#include <tuple>
 #include <utility>
 
 #include <gtest/gtest.h>
@@ -33,6 +35,26 @@ struct LevelScene {
         patch.area = width * (x.to - x.from);
         patch.centroid = Vector3d((x.from + x.to) / 2.0, width / 2.0, height);
         patch.plane = {looks_up * Vector3d::UnitZ(), looks_up * height};
+        patches.push_back(std::move(patch));
+    }
+    /// A slope 4 m wide that looks down, from one height up to another.
+    void add_slope(double degrees, double from, double to) {
+        constexpr double step = 0.1;
+        const double angle = degrees * M_PI / 180.0;
+        const double length = (to - from) / std::sin(angle);
+        PlanarPatch patch;
+        for (double along = 0.0; along < length; along += step) {
+            for (double at_y = 0.0; at_y < 4.0; at_y += step) {
+                patch.points.push_back(static_cast<std::uint32_t>(sample.cloud.positions.size()));
+                sample.cloud.positions.push_back(
+                    Vector3d(along * std::cos(angle), at_y, from + along * std::sin(angle))
+                        .cast<float>());
+            }
+        }
+        patch.area = 4.0 * length;
+        patch.centroid = Vector3d(0.5 * length * std::cos(angle), 2.0, 0.5 * (from + to));
+        patch.plane.normal = Vector3d(std::sin(angle), 0.0, -std::cos(angle));
+        patch.plane.offset = patch.plane.normal.dot(patch.centroid);
         patches.push_back(std::move(patch));
     }
     std::vector<Storey> storeys() const {
@@ -78,6 +100,22 @@ TEST(LevelSurfaces, WithoutACeilingTheLowestIsTheFloor) {
     ASSERT_EQ(storeys.size(), 1U);
     ASSERT_TRUE(storeys[0].floor);
     EXPECT_NEAR(storeys[0].floor->height, -0.45, 1e-9);
+}
+
+TEST(LevelSurfaces, ARoofsSlopeIsCeilingIfItRisesToARoomsHeight) {
+    for (const auto& [degrees, from, to, count] :
+         {std::tuple(40.0, 0.9, 2.4, 1U), std::tuple(55.0, 0.9, 2.4, 1U),
+          // A wall that leans, and the underside of something low.
+          std::tuple(55.0, 0.0, 2.4, 0U), std::tuple(40.0, 0.4, 1.5, 0U)}) {
+        LevelScene scene;
+        scene.add(0.0, {0.0, 5.0}, 1.0);
+        scene.add(2.4, {1.5, 3.5}, -1.0);
+        scene.add_slope(degrees, from, to);
+        const std::vector<Storey> storeys = scene.storeys();
+        ASSERT_EQ(storeys.size(), 1U);
+        EXPECT_EQ(storeys[0].sloping_ceilings.size(), count) << degrees << ' ' << from;
+        EXPECT_NEAR(*storeys[0].ceiling_height(), 2.4, 1e-9);
+    }
 }
 
 }  // namespace

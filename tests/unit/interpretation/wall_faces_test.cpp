@@ -133,5 +133,27 @@ TEST(WallFaces, WhatEndsBelowTheCeilingOverItDoesNotReachIt) {
     EXPECT_TRUE(faces[0].reaches_ceiling) << "the room's lowest, where none was seen over it";
 }
 
+TEST(WallFaces, AKneeWallReachesTheSlopeOverIt) {
+    // Of the second the foot is hidden; the third stands under a level ceiling, as a sideboard
+    // does.
+    for (const auto& [bottom, is_under_slope, count] :
+         {std::tuple(0.0, true, 1U), std::tuple(0.45, true, 1U), std::tuple(0.0, false, 0U)}) {
+        RoomWithSurfaces room;
+        if (is_under_slope) {
+            for (std::size_t cell = 0; cell < room.plan.num_cells(); ++cell) {
+                const double slope = 0.8 + room.plan.middle_of(cell).x();
+                room.plan.ceiling_of_cell[cell] = static_cast<float>(std::min(slope, ceiling));
+                room.plan.is_under_slope[cell] = slope < ceiling;
+            }
+        }
+        room.add(Vector3d::Zero(), 0.0, 4.0, 0.8,
+                 [from = bottom](double /*along*/, double z) { return z > from; });
+        const std::vector<WallFace> faces = room.find();
+        ASSERT_EQ(faces.size(), count) << bottom << ' ' << is_under_slope;
+        for (const WallFace& face : faces)
+            EXPECT_TRUE(face.reaches_ceiling);
+    }
+}
+
 }  // namespace
 }  // namespace roomscribe

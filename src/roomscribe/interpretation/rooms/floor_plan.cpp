@@ -17,6 +17,7 @@ FloorPlan::FloorPlan(const Vector2d& low, const Vector2d& high, double cell_size
     is_barrier.assign(num_cells(), false);
     has_level.assign(num_cells(), false);
     ceiling_of_cell.assign(num_cells(), std::numeric_limits<float>::quiet_NaN());
+    is_under_slope.assign(num_cells(), false);
 }
 
 std::optional<std::size_t> FloorPlan::cell_at(const Vector2d& place) const {
@@ -52,14 +53,20 @@ bool FloorPlan::has_level_at(const Vector2d& place) const {
 
 std::optional<double> FloorPlan::ceiling_near(const Vector2d& place, int reach) const {
     const auto cell = cell_at(place);
+    if (!cell) return std::nullopt;
     float highest = std::numeric_limits<float>::quiet_NaN();
-    if (cell) {
-        for_each_neighbor(*cell, reach, [&](std::size_t other) {
-            if (!(highest >= ceiling_of_cell[other])) highest = ceiling_of_cell[other];
-        });
-    }
-    if (std::isnan(highest)) return std::nullopt;
-    return static_cast<double>(highest);
+    float lowest_slope = highest;
+    for_each_neighbor(*cell, reach, [&](std::size_t other) {
+        const float height = ceiling_of_cell[other];
+        if (is_under_slope[other]) {
+            if (!(lowest_slope <= height)) lowest_slope = height;
+        } else if (!(highest >= height)) {
+            highest = height;
+        }
+    });
+    const float found = std::isnan(highest) ? lowest_slope : highest;
+    if (std::isnan(found)) return std::nullopt;
+    return static_cast<double>(found);
 }
 
 }  // namespace roomscribe

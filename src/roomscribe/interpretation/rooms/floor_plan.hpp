@@ -20,7 +20,7 @@ inline constexpr int ceiling_cells = 4;
 /// A room as seen from above.
 struct PlanRoom {
     double floor_height = 0.0;             ///< m along up
-    std::optional<double> ceiling_height;  ///< median of what was seen of it
+    std::optional<double> ceiling_height;  ///< median of what was seen of it, or the ridge
     std::optional<double> lowest_ceiling;  ///< 3 % of it is lower
 };
 
@@ -48,7 +48,8 @@ class FloorPlan {
     bool is_barrier_at(const Eigen::Vector2d& place) const;
     /// Whether floor or ceiling was seen there.
     bool has_level_at(const Eigen::Vector2d& place) const;
-    /// Height of the highest ceiling seen in the place's cell or within `reach` cells of it.
+    /// Height of the highest ceiling seen in the place's cell or within `reach` cells of it; under
+    /// a roof, where the slope is lowest.
     std::optional<double> ceiling_near(const Eigen::Vector2d& place, int reach) const;
 
     /// Whether `test(place)` holds anywhere from `nearest` to `farthest` m from a place in a
@@ -79,6 +80,7 @@ class FloorPlan {
     std::vector<bool> is_barrier;        ///< per cell
     std::vector<bool> has_level;         ///< per cell: floor or ceiling was seen
     std::vector<float> ceiling_of_cell;  ///< m along up, the highest seen in it; else NaN
+    std::vector<bool> is_under_slope;    ///< per cell: of its ceiling only a roof's slope was seen
     std::vector<PlanRoom> rooms;
 
   private:

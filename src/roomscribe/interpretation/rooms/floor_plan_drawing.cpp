@@ -48,8 +48,8 @@ class PlanDrawer {
         return room_from_map_ * position.cast<double>();
     }
     template <typename Visit>
-    void for_each_voxel(const Level& level, Visit&& visit) const {
-        for (const std::uint32_t patch : level.patches) {
+    void for_each_voxel(std::span<const std::uint32_t> patches, Visit&& visit) const {
+        for (const std::uint32_t patch : patches) {
             for (const std::uint32_t voxel : patches_[patch].points)
                 visit(in_room(sample_.cloud.positions[voxel]));
         }
@@ -90,10 +90,11 @@ bool PlanDrawer::lay_out() {
         ys.push_back(point.y());
     };
     for (const Level& level : storey_.ceilings)
-        for_each_voxel(level, include);
-    if (storey_.floor) for_each_voxel(*storey_.floor, include);
+        for_each_voxel(level.patches, include);
+    if (storey_.floor) for_each_voxel(storey_.floor->patches, include);
     for (const Level& level : storey_.other_floors)
-        for_each_voxel(level, include);
+        for_each_voxel(level.patches, include);
+    for_each_voxel(storey_.sloping_ceilings, include);
     const bool has_level = !xs.empty();
     if (!has_level) {
         if (rays_.empty()) return false;
@@ -149,17 +150,24 @@ void PlanDrawer::mark_levels() {
         cells_[*cell].has_floor = true;
         plan_.has_level[*cell] = true;
     };
-    if (storey_.floor) for_each_voxel(*storey_.floor, mark_floor);
+    if (storey_.floor) for_each_voxel(storey_.floor->patches, mark_floor);
     for (const Level& level : storey_.other_floors)
-        for_each_voxel(level, mark_floor);
+        for_each_voxel(level.patches, mark_floor);
+    const auto mark_ceiling = [&](const Vector3d& point) -> std::optional<std::size_t> {
+        const auto cell = plan_.cell_at(point.head<2>());
+        if (!cell) return {};
+        plan_.has_level[*cell] = true;
+        float& ceiling = plan_.ceiling_of_cell[*cell];
+        const auto height = static_cast<float>(point.z());
+        if (!(ceiling >= height)) ceiling = height;
+        return cell;
+    };
+    for_each_voxel(storey_.sloping_ceilings, [&](const Vector3d& point) {
+        if (const auto cell = mark_ceiling(point)) plan_.is_under_slope[*cell] = true;
+    });
     for (const Level& level : storey_.ceilings) {
-        for_each_voxel(level, [&](const Vector3d& point) {
-            const auto cell = plan_.cell_at(point.head<2>());
-            if (!cell) return;
-            plan_.has_level[*cell] = true;
-            float& ceiling = plan_.ceiling_of_cell[*cell];
-            const auto height = static_cast<float>(point.z());
-            if (!(ceiling >= height)) ceiling = height;
+        for_each_voxel(level.patches, [&](const Vector3d& point) {
+            if (const auto cell = mark_ceiling(point)) plan_.is_under_slope[*cell] = false;
         });
     }
 }
@@ -426,19 +434,28 @@ void PlanDrawer::grow(double reach, MayTake&& may_take) {
     }
 }
 
+/// Under a roof the level part of the ceiling is the room's height, or else where the slopes end.
 void PlanDrawer::describe_rooms() {
     std::vector<std::vector<float>> ceilings(plan_.rooms.size());
+    std::vector<std::vector<float>> slopes(plan_.rooms.size());
     for (std::size_t cell = 0; cell < cells_.size(); ++cell) {
-        if (plan_.room_of_cell[cell] == no_room) continue;
+        if (plan_.room_of_cell[cell] == no_room || std::isnan(plan_.ceiling_of_cell[cell]))
+            continue;
         const auto room = static_cast<std::size_t>(plan_.room_of_cell[cell]);
-        if (!std::isnan(plan_.ceiling_of_cell[cell]))
-            ceilings[room].push_back(plan_.ceiling_of_cell[cell]);
+        (plan_.is_under_slope[cell] ? slopes : ceilings)[room].push_back(
+            plan_.ceiling_of_cell[cell]);
     }
-    for (std::size_t room = 0; room < plan_.rooms.size(); ++room) {
-        plan_.rooms[room].floor_height = floor_;
-        if (ceilings[room].empty()) continue;
-        plan_.rooms[room].ceiling_height = static_cast<double>(median(ceilings[room]));
-        plan_.rooms[room].lowest_ceiling = static_cast<double>(quantile(ceilings[room], 0.03));
+    constexpr double stray_share = 0.03;
+    for (std::size_t i = 0; i < plan_.rooms.size(); ++i) {
+        PlanRoom& room = plan_.rooms[i];
+        room.floor_height = floor_;
+        if (!ceilings[i].empty()) {
+            room.ceiling_height = static_cast<double>(median(ceilings[i]));
+            room.lowest_ceiling = static_cast<double>(quantile(ceilings[i], stray_share));
+        } else if (!slopes[i].empty()) {
+            room.ceiling_height = static_cast<double>(quantile(slopes[i], 1.0 - stray_share));
+            room.lowest_ceiling = room.ceiling_height;
+        }
     }
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "roomscribe/core/quantile.hpp"
 #include "roomscribe/core/units.hpp"
 
 namespace roomscribe {
@@ -19,8 +20,11 @@ constexpr double min_level_share = 0.05;
 constexpr double min_level_area = 0.5;
 /// Podiums, ramps and thresholds lie lower than seats (0.4 m and more).
 constexpr double max_step = 0.35;
-/// Ceilings under a roof slope by up to this much; steeper, it is a wall.
+/// Ceilings under a roof slope by up to this much; steeper, it is a wall, unless it begins above a
+/// knee wall: roofs of dwellings rise by up to 60 degrees.
 constexpr double max_ceiling_slope = radians(45.0);
+constexpr double max_roof_slope = radians(60.0);
+constexpr double min_knee_height = 0.4;
 /// Storeys are no higher (building practice); above, it is a roof seen from outside.
 constexpr double max_room_height = 5.0;
 /// Slabs are thicker.
@@ -61,18 +65,26 @@ std::vector<Level> find_levels(std::span<const PlanarPatch> patches, const Eigen
     return levels;
 }
 
-/// Each goes to the highest storey whose floor lies a room's height below it.
-void add_sloping_ceilings(std::vector<Storey>& storeys, std::span<const PlanarPatch> patches,
-                          const Eigen::Vector3d& up, bool facing_is_known, double room_height) {
+/// Each goes to the highest storey over whose floor it rises to a room's height.
+void add_sloping_ceilings(std::vector<Storey>& storeys, const SurfaceSample& sample,
+                          std::span<const PlanarPatch> patches, const Eigen::Vector3d& up,
+                          bool facing_is_known, double room_height) {
+    constexpr double stray_share = 0.02;
     for (std::uint32_t i = 0; i < patches.size(); ++i) {
         const double cosine = patches[i].plane.normal.dot(up);
         if (patches[i].area < min_level_area || (facing_is_known && cosine > 0.0)) continue;
         if (std::abs(cosine) >= std::cos(max_slope)) continue;
-        if (std::abs(cosine) < std::cos(max_ceiling_slope)) continue;
-        const double height = patches[i].centroid.dot(up);
+        if (std::abs(cosine) < std::cos(max_roof_slope)) continue;
+        std::vector<double> heights;
+        for (const std::uint32_t voxel : patches[i].points)
+            heights.push_back(sample.cloud.positions[voxel].cast<double>().dot(up));
+        const double low = quantile(heights, stray_share);
+        const double high = quantile(heights, 1.0 - stray_share);
+        const bool is_steep = std::abs(cosine) < std::cos(max_ceiling_slope);
         const auto below = std::find_if(storeys.rbegin(), storeys.rend(), [&](const Storey& s) {
-            return s.floor && height >= s.floor->height + room_height &&
-                   height <= s.floor->height + max_room_height;
+            return s.floor && high >= s.floor->height + room_height &&
+                   high <= s.floor->height + max_room_height &&
+                   low >= s.floor->height + (is_steep ? min_knee_height : 0.0);
         });
         if (below != storeys.rend()) below->sloping_ceilings.push_back(i);
     }
@@ -250,7 +262,7 @@ std::vector<Storey> find_storeys(const SurfaceSample& sample, std::span<const Pl
     const bool has_ceiling = std::any_of(storeys.begin(), storeys.end(),
                                          [](const Storey& s) { return !s.ceilings.empty(); });
     if (has_ceiling) std::erase_if(storeys, [](const Storey& s) { return s.ceilings.empty(); });
-    add_sloping_ceilings(storeys, patches, up, facing_is_known, settings.min_room_height);
+    add_sloping_ceilings(storeys, sample, patches, up, facing_is_known, settings.min_room_height);
     return storeys;
 }
 

@@ -25,7 +25,7 @@ struct Storey {
     std::optional<Level> floor;       ///< the largest
     std::vector<Level> other_floors;  ///< within a low step of it
     std::vector<Level> ceilings;      ///< by height
-    /// Patches high above the floor, under a roof's slope.
+    /// Patches that rise to a room's height, under a roof's slope.
     std::vector<std::uint32_t> sloping_ceilings;
 
     /// Height of the lowest ceiling.

@@ -173,34 +173,45 @@ void SurfaceBuilder::add_level(const LevelPiece& piece, Label label, const Store
     surfaces_.push_back(std::move(surface));
 }
 
-/// Of the room that most of it lies over. Outside of all rooms it is a roof or a reflection, if it
-/// is known where the scanners stood; else it may be over what nobody drew, as behind cupboards.
+/// A part of the ceiling of each room that it lies over: a room has one. Outside of all rooms it is
+/// a roof or a reflection, if it is known where the scanners stood; else it may be over what nobody
+/// drew, as behind cupboards.
 void SurfaceBuilder::add_sloping_ceiling(std::uint32_t patch, const Storey& storey,
                                          const FloorPlan& plan,
                                          std::span<const std::string> room_ids) {
     const PlanarPatch& slope = patches_[patch];
-    std::map<std::int32_t, std::size_t> counts;
+    std::map<std::int32_t, std::vector<std::uint32_t>> by_room;
     for (const std::uint32_t voxel : slope.points) {
         const Eigen::Vector3d place =
             room_from_map_ * sample_.cloud.positions[voxel].cast<double>();
-        ++counts[plan.room_at(place.head<2>())];
+        by_room[plan.room_at(place.head<2>())].push_back(voxel);
     }
-    std::int32_t room = no_room;
-    for (const auto& [number, count] : counts) {
-        if (2 * count > slope.points.size()) room = number;
+    const bool knows_rooms = !plan.rooms.empty() && !sample_.sensor_positions.empty();
+    for (auto& [room, voxels] : by_room) {
+        const bool is_large = 2 * voxels.size() > slope.points.size();
+        if (room == no_room && (knows_rooms || !is_large)) continue;
+        const std::string id = room == no_room ? "" : room_ids[static_cast<std::size_t>(room)];
+        const auto ceiling =
+            std::find_if(surfaces_.begin(), surfaces_.end(), [&](const RoomSurface& surface) {
+                return surface.component.label == Label::ceiling &&
+                       surface.component.parent == id && !id.empty();
+            });
+        if (ceiling != surfaces_.end()) {
+            ceiling->voxels.insert(ceiling->voxels.end(), voxels.begin(), voxels.end());
+            ceiling->component.evidence.points = ceiling->voxels.size();
+            continue;
+        }
+        if (!is_large) continue;
+        add_level({slope.centroid.dot(up_), voxels.size(), std::move(voxels)}, Label::ceiling,
+                  storey, id, {});
+        RoomSurface& surface = surfaces_.back();
+        surface.plane = slope.plane.normal.dot(up_) > 0.0 ? slope.plane.flipped() : slope.plane;
+        surface.component.evidence.rule =
+            "sloping surface that rises to a room's height, nothing above it";
+        surface.component.evidence.alternative = "underside of something that leans";
+        surface.component.confidence = 0.6;
+        surface.component.verdict = Verdict::doubtful;
     }
-    if (room == no_room && !plan.rooms.empty() && !sample_.sensor_positions.empty()) return;
-    const std::string id = room == no_room ? "" : room_ids[static_cast<std::size_t>(room)];
-    add_level({slope.centroid.dot(up_), slope.points.size(), slope.points}, Label::ceiling, storey,
-              id, {});
-    RoomSurface& surface = surfaces_.back();
-    surface.plane = slope.plane.normal.dot(up_) > 0.0 ? slope.plane.flipped() : slope.plane;
-    surface.component.evidence.rule =
-        "sloping surface at least a room's height above the floor, "
-        "nothing above it";
-    surface.component.evidence.alternative = "underside of something that leans";
-    surface.component.confidence = 0.6;
-    surface.component.verdict = Verdict::doubtful;
 }
 
 void SurfaceBuilder::add_wall(const WallFace& face, const Storey& storey, const std::string& parent,
@@ -208,7 +219,10 @@ void SurfaceBuilder::add_wall(const WallFace& face, const Storey& storey, const 
     RoomSurface surface = start(Label::wall, parent, face.voxels);
     surface.plane = face.plane;
     const double bottom = storey.floor ? storey.floor->height : face.bottom;
-    const double top = ceiling.value_or(face.top);
+    // A knee wall ends under the roof's slope; dropped ceilings and beams hang less low.
+    constexpr double max_ceiling_step = 1.0;
+    const bool is_low = ceiling && face.reaches_ceiling && face.top < *ceiling - max_ceiling_step;
+    const double top = is_low ? face.top : ceiling.value_or(face.top);
     const Eigen::Vector3d on_plane = face.plane.offset * face.plane.normal;
     Component& component = surface.component;
     component.polygon = {on_plane + face.start * face.along + bottom * up_,

@@ -85,6 +85,7 @@ class FaceFinder {
     bool has_level_behind(const WallFace& face) const;
     std::optional<double> ceiling_over(const WallFace& face) const;
     AboveFace look_above(const WallFace& face, std::optional<double> ceiling) const;
+    bool is_knee_wall(const WallFace& face, std::optional<double> ceiling) const;
     bool is_wall(const WallFace& face, std::optional<double> ceiling) const;
     bool is_closed_between(const WallFace& wall, double from, double to) const;
     std::set<int> columns_of(const WallFace& face, const Vector3d& along, double from,
@@ -243,13 +244,23 @@ AboveFace FaceFinder::look_above(const WallFace& face, std::optional<double> cei
     return count.passed + count.ended < min_rays ? AboveFace::unseen : AboveFace::surface;
 }
 
+/// Up to a roof's slope that is lower there than ceilings are; the last thing that was seen, though
+/// furniture may hide its foot.
+bool FaceFinder::is_knee_wall(const WallFace& face, std::optional<double> ceiling) const {
+    constexpr double min_height = 0.2;  // m, of what is seen over a bed
+    const double floor = plan_.rooms[static_cast<std::size_t>(face.room)].floor_height;
+    return ceiling && *ceiling < floor + settings_.min_room_height && face.reaches_ceiling &&
+           face.top - face.bottom >= min_height && is_last(face);
+}
+
 /// Walls reach the ceiling and are more than a beam; where that cannot be seen, they are taller
 /// than furniture, unless the view ends there, and the last thing that was seen.
 bool FaceFinder::is_wall(const WallFace& face, std::optional<double> ceiling) const {
     const PlanRoom& room = plan_.rooms[static_cast<std::size_t>(face.room)];
     const double height = face.top - face.bottom;
     const AboveFace above = look_above(face, ceiling);
-    if (height < settings_.min_wall_height || above == AboveFace::free) return false;
+    if (above == AboveFace::free) return false;
+    if (height < settings_.min_wall_height && !is_knee_wall(face, ceiling)) return false;
     // Beams, ducts and soffits end above the floor, which goes on under them.
     if (face.reaches_ceiling) return face.reaches_floor || !has_level_behind(face);
     if (!ceiling && height >= settings_.min_free_wall_height) return true;
