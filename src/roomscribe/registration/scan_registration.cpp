@@ -13,6 +13,7 @@
 #include "roomscribe/core/quantile.hpp"
 #include "roomscribe/model/kept_result.hpp"
 #include "roomscribe/model/result_bytes.hpp"
+#include "roomscribe/preprocessing/beam_offsets.hpp"
 #include "roomscribe/preprocessing/false_returns.hpp"
 #include "roomscribe/preprocessing/scan_statistics.hpp"
 #include "roomscribe/registration/graph/link_consistency.hpp"
@@ -20,12 +21,26 @@
 namespace roomscribe {
 namespace {
 
-/// The scans without what is no return; those that have none are not copied.
+/// The scan without its beams' offsets; nothing if it has none.
+std::optional<Scan> without_beam_offsets(const Scan& scan) {
+    const std::optional<BeamOffsets> beams =
+        find_beam_offsets(scan.cloud.positions, scan.sensor_position(), scan.sensor_axes());
+    if (!beams) return std::nullopt;
+    Scan corrected = scan;
+    remove_beam_offsets(corrected.cloud.positions, scan.sensor_position(), *beams);
+    return corrected;
+}
+
+/// The scans without what is no return and without their beams' offsets; those that have neither
+/// are not copied.
 class CleanScans {
   public:
     CleanScans(std::span<const Scan> scans, const Context& context) : as_given_(scans) {
-        for (const Scan& scan : scans)
-            cleaned_.push_back(without_false_returns(scan, context));
+        for (const Scan& scan : scans) {
+            std::optional<Scan> returns = without_false_returns(scan, context);
+            std::optional<Scan> corrected = without_beam_offsets(returns ? *returns : scan);
+            cleaned_.push_back(corrected ? std::move(corrected) : std::move(returns));
+        }
     }
     const Scan& operator[](std::size_t i) const {
         return cleaned_[i] ? *cleaned_[i] : as_given_[i];

@@ -1,0 +1,332 @@
+// SPDX-License-Identifier: MIT
+#include "roomscribe/preprocessing/beam_offsets.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <numbers>
+
+#include <Eigen/Dense>
+
+#include "roomscribe/core/units.hpp"
+#include "roomscribe/geometry/plane.hpp"
+
+namespace roomscribe {
+namespace {
+
+using Eigen::Vector3d;
+/// 1, x, y, xx, xy, yy at a place on a cell's plane: a surface that bends, and two that meet at a
+/// small step, are not taken for offsets.
+using Vector6d = Eigen::Matrix<double, 6, 1>;
+using Matrix6d = Eigen::Matrix<double, 6, 6>;
+
+constexpr std::size_t min_beams = 8;
+constexpr std::size_t max_beams = 128;
+/// m. Several rings of a lidar with 16 beams cross a cell (2 degrees are 10 cm at 3 m), and a wall
+/// is about even within it.
+constexpr double cell_size = 1.0;
+/// m, the standard deviation of offsets (data sheets), and of what one beam shows of a surface:
+/// walls are uneven, and there is noise.
+constexpr double usual_offset = 0.02;
+constexpr double usual_unevenness = 0.006;
+
+/// A point on a ring, in axes parallel to the cloud's.
+struct RingPoint {
+    Vector3d direction;
+    double range = 0.0;
+    std::size_t beam = 0;
+};
+using Cell = std::vector<RingPoint>;
+
+/// Rings are the runs of bins between gaps; all points of other scanners make one wide run.
+std::vector<std::int32_t> number_rings(std::span<const double> elevations, std::size_t num_finite) {
+    // The densest rings, of 128 beams, are 0.35 degrees apart.
+    constexpr double bin_size = radians(0.02);
+    constexpr std::size_t max_width = 5;
+    const std::size_t min_points = std::max<std::size_t>(20, num_finite / 1000);
+    const auto bin_of = [](double elevation) {
+        return static_cast<std::size_t>((elevation + 0.5 * std::numbers::pi) / bin_size);
+    };
+    std::vector<std::size_t> counts(bin_of(0.5 * std::numbers::pi) + max_width + 2, 0);
+    for (const double elevation : elevations) {
+        if (std::isfinite(elevation)) ++counts[bin_of(elevation)];
+    }
+    std::vector<std::int32_t> ring_of_bin(counts.size(), -1);
+    std::int32_t num_rings = 0;
+    std::size_t first = 0;
+    std::size_t last = 0;
+    std::size_t count = 0;
+    for (std::size_t bin = 0; bin < counts.size(); ++bin) {
+        if (count > 0 && bin - last > max_width) {
+            if (count >= min_points && last - first < max_width) {
+                std::fill(ring_of_bin.begin() + static_cast<std::ptrdiff_t>(first),
+                          ring_of_bin.begin() + static_cast<std::ptrdiff_t>(last) + 1, num_rings++);
+            }
+            count = 0;
+        }
+        if (counts[bin] == 0) continue;
+        if (count == 0) first = bin;
+        last = bin;
+        count += counts[bin];
+    }
+    std::vector<std::int32_t> rings(elevations.size(), -1);
+    for (std::size_t i = 0; i < elevations.size(); ++i) {
+        if (std::isfinite(elevations[i])) rings[i] = ring_of_bin[bin_of(elevations[i])];
+    }
+    return rings;
+}
+
+/// One beam's points in a cell: the mean of their places, their mean height over the cell's plane
+/// and how much of a longer range is height.
+struct BeamMean {
+    std::size_t beam = 0;
+    double count = 0.0;
+    Vector6d place = Vector6d::Zero();
+    double height = 0.0;
+    double cosine = 0.0;
+};
+
+/// Points farther off than so many standard deviations lie on something else.
+constexpr double max_deviations = 2.5;
+
+/// The plane of most of a cell; nothing if it is not flat, or a strip that fits any plane.
+std::optional<PlaneFit> fit_flat(const Cell& cell, const std::vector<double>& offsets) {
+    constexpr int num_trims = 3;
+    constexpr double min_share = 0.7;
+    constexpr double max_rms = 0.045;  // m, noise and offsets of 3 cm each (data sheets)
+    constexpr double min_width = 0.15;
+    std::optional<PlaneFit> fit;
+    for (int trim = 0; trim <= num_trims; ++trim) {
+        PlaneMoments moments;
+        moments.reference = cell[0].range * cell[0].direction;
+        for (const RingPoint& point : cell) {
+            const Vector3d place = (point.range - offsets[point.beam]) * point.direction;
+            if (!fit || std::abs(fit->plane.signed_distance(place)) < max_deviations * fit->rms)
+                moments.add(place);
+        }
+        if (static_cast<double>(moments.count) < min_share * static_cast<double>(cell.size()))
+            return std::nullopt;
+        fit = moments.fit();
+        if (!fit) return std::nullopt;
+    }
+    if (fit->rms > max_rms || fit->variances[1] < min_width * min_width) return std::nullopt;
+    return fit;
+}
+
+/// Empty if the cell is not flat or few beams cross it.
+std::vector<BeamMean> average_beams(const Cell& cell, const std::vector<double>& offsets) {
+    constexpr double min_cosine = 0.2;  // at grazing rays a longer range hardly leaves the plane
+    constexpr double min_points = 5.0;
+    constexpr std::size_t min_beams_in_cell = 8;  // two more than a surface has coefficients
+    const std::optional<PlaneFit> fit = fit_flat(cell, offsets);
+    if (!fit) return {};
+    const PlaneAxes axes = plane_axes(fit->plane.normal);
+    std::map<std::size_t, BeamMean> means;
+    for (const RingPoint& point : cell) {
+        const double cosine = fit->plane.normal.dot(point.direction);
+        const Vector3d place = (point.range - offsets[point.beam]) * point.direction;
+        const double height = fit->plane.signed_distance(place);
+        if (std::abs(cosine) < min_cosine || std::abs(height) > max_deviations * fit->rms) continue;
+        const double x = axes.u.dot(place - fit->centroid);
+        const double y = axes.v.dot(place - fit->centroid);
+        BeamMean& mean = means[point.beam];
+        mean.beam = point.beam;
+        mean.count += 1.0;
+        mean.place += (Vector6d() << 1.0, x, y, x * x, x * y, y * y).finished();
+        mean.height += height;
+        mean.cosine += cosine;
+    }
+    std::vector<BeamMean> result;
+    for (auto& [beam, mean] : means) {
+        if (mean.count < min_points) continue;
+        mean.place /= mean.count;
+        mean.height /= mean.count;
+        mean.cosine /= mean.count;
+        result.push_back(mean);
+    }
+    if (result.size() < min_beams_in_cell) result.clear();
+    return result;
+}
+
+/// A bent surface through the means of a cell, those off it counting less (Cauchy's weights).
+struct CellSurface {
+    std::vector<double> weights;
+    Matrix6d inverse;  ///< of the weighted squares of the places
+    Vector6d heights;  ///< weighted sum of places times heights
+
+    CellSurface(const std::vector<BeamMean>& means, double scale) : weights(means.size(), 1.0) {
+        constexpr int num_passes = 5;
+        for (int pass = 0;; ++pass) {
+            Matrix6d squares = 1e-6 * Matrix6d::Identity();
+            heights.setZero();
+            for (std::size_t i = 0; i < means.size(); ++i) {
+                squares += weights[i] * means[i].place * means[i].place.transpose();
+                heights += weights[i] * means[i].height * means[i].place;
+            }
+            inverse = squares.inverse();
+            if (pass == num_passes) return;
+            const Vector6d surface = inverse * heights;
+            for (std::size_t i = 0; i < means.size(); ++i) {
+                const double off = (means[i].height - surface.dot(means[i].place)) / scale;
+                weights[i] = 1.0 / (1.0 + off * off);
+            }
+        }
+    }
+};
+
+/// Least squares over all cells for the beams' offsets; the cells' surfaces are eliminated.
+class OffsetEquations {
+  public:
+    explicit OffsetEquations(std::size_t num_beams) {
+        const auto size = static_cast<Eigen::Index>(num_beams);
+        matrix_.setZero(size, size);
+        right_.setZero(size);
+    }
+
+    void add(const std::vector<BeamMean>& means, const CellSurface& surface) {
+        for (std::size_t i = 0; i < means.size(); ++i) {
+            const auto row = static_cast<Eigen::Index>(means[i].beam);
+            const double factor = surface.weights[i] * means[i].cosine;
+            const Vector6d of_surface = surface.inverse * means[i].place;
+            right_[row] += factor * (means[i].height - of_surface.dot(surface.heights));
+            matrix_(row, row) += factor * means[i].cosine;
+            for (std::size_t j = 0; j < means.size(); ++j) {
+                matrix_(row, static_cast<Eigen::Index>(means[j].beam)) -=
+                    factor * of_surface.dot(means[j].place) * surface.weights[j] * means[j].cosine;
+            }
+        }
+    }
+
+    /// Adds what is still missing to the offsets, which a priori are of the usual size.
+    void improve(std::vector<double>& offsets) const {
+        constexpr double prior =
+            usual_unevenness * usual_unevenness / (usual_offset * usual_offset);
+        Eigen::Map<Eigen::VectorXd> known(offsets.data(), right_.size());
+        const Eigen::MatrixXd with_prior =
+            matrix_ + prior * Eigen::MatrixXd::Identity(right_.size(), right_.size());
+        known += with_prior.ldlt().solve(right_ - prior * known);
+    }
+
+  private:
+    Eigen::MatrixXd matrix_;
+    Eigen::VectorXd right_;
+};
+
+std::vector<Cell> cut_into_cells(const std::vector<RingPoint>& points) {
+    // Askew, so that no surface lies between two cells, each of which would see the nearer or the
+    // farther of its points.
+    const Eigen::Matrix3d askew =
+        Eigen::AngleAxisd(0.5, Vector3d(1.0, 2.0, 3.0).normalized()).toRotationMatrix();
+    std::map<std::array<int, 3>, Cell> cells;
+    for (const RingPoint& point : points) {
+        // Rounded, so that no wall of cells parts the beams above the horizon from those below.
+        const Eigen::Vector3i cell =
+            (point.range / cell_size * (askew * point.direction)).array().round().cast<int>();
+        cells[{cell.x(), cell.y(), cell.z()}].push_back(point);
+    }
+    std::vector<Cell> result;
+    for (auto& [place, members] : cells)
+        result.push_back(std::move(members));
+    return result;
+}
+
+/// From every `stride`-th cell. The more the beams agree, the smaller a `scale` (m) tells what is
+/// off a surface.
+void improve_offsets(std::vector<double>& offsets, std::span<const Cell> cells, std::size_t stride,
+                     int num_rounds, double scale) {
+    for (int round = 0; round < num_rounds; ++round) {
+        OffsetEquations equations(offsets.size());
+        for (std::size_t i = 0; i < cells.size(); i += stride) {
+            const std::vector<BeamMean> means = average_beams(cells[i], offsets);
+            if (!means.empty()) equations.add(means, CellSurface(means, scale));
+        }
+        equations.improve(offsets);
+    }
+}
+
+/// Empty where the two halves of the cells tell differently.
+std::vector<double> solve_offsets(const std::vector<Cell>& cells, std::size_t num_beams) {
+    // Of clutter alone, without any offsets, halves correlate by up to 0.5.
+    constexpr double min_correlation = 0.6;
+    constexpr double min_offset = 0.005;  // m: less may be the walls', and does no harm
+    if (cells.size() < 2) return {};
+    std::array<std::vector<double>, 2> halves;
+    for (std::size_t half = 0; half < 2; ++half) {
+        halves[half].assign(num_beams, 0.0);
+        improve_offsets(halves[half], std::span(cells).subspan(half), 2, 3, usual_offset);
+    }
+    const auto size = static_cast<Eigen::Index>(num_beams);
+    const Eigen::Map<const Eigen::VectorXd> a(halves[0].data(), size);
+    const Eigen::Map<const Eigen::VectorXd> b(halves[1].data(), size);
+    if (!(a.dot(b) > min_correlation * a.norm() * b.norm())) return {};
+    std::vector<double> offsets(num_beams, 0.0);
+    Eigen::Map<Eigen::VectorXd> all(offsets.data(), size);
+    all = 0.5 * (a + b);
+    improve_offsets(offsets, cells, 1, 2, usual_unevenness);
+    if (all.norm() < min_offset * std::sqrt(static_cast<double>(num_beams))) return {};
+    return offsets;
+}
+
+}  // namespace
+
+std::optional<BeamOffsets> find_beam_offsets(std::span<const Eigen::Vector3f> positions,
+                                             const Vector3d& sensor_position,
+                                             const Eigen::Matrix3d& sensor_axes) {
+    constexpr double min_share_on_rings = 0.95;  // strays leave the rings
+    const auto ray_to = [&](std::size_t i) -> Vector3d {
+        return positions[i].cast<double>() - sensor_position;
+    };
+    std::vector<double> elevations(positions.size());
+    std::size_t num_finite = 0;
+    for (std::size_t i = 0; i < positions.size(); ++i) {
+        elevations[i] =
+            std::asin(std::clamp(sensor_axes.col(2).dot(ray_to(i)) / ray_to(i).norm(), -1.0, 1.0));
+        if (std::isfinite(elevations[i])) ++num_finite;
+    }
+    BeamOffsets result;
+    result.beam_of_point = number_rings(elevations, num_finite);
+    std::vector<RingPoint> points;
+    std::size_t num_beams = 0;
+    for (std::size_t i = 0; i < positions.size(); ++i) {
+        if (result.beam_of_point[i] < 0) continue;
+        const auto beam = static_cast<std::size_t>(result.beam_of_point[i]);
+        num_beams = std::max(num_beams, beam + 1);
+        points.push_back({ray_to(i).normalized(), ray_to(i).norm(), beam});
+    }
+    if (num_beams < min_beams || num_beams > max_beams ||
+        static_cast<double>(points.size()) < min_share_on_rings * static_cast<double>(num_finite))
+        return std::nullopt;
+    result.offsets = solve_offsets(cut_into_cells(points), num_beams);
+    if (result.offsets.empty()) return std::nullopt;
+    return result;
+}
+
+void remove_beam_offsets(std::span<Eigen::Vector3f> positions, const Vector3d& sensor_position,
+                         const BeamOffsets& beams) {
+    for (std::size_t i = 0; i < positions.size(); ++i) {
+        const std::int32_t beam = beams.beam_of_point[i];
+        if (beam < 0) continue;
+        const Vector3d ray = positions[i].cast<double>() - sensor_position;
+        const double offset = beams.offsets[static_cast<std::size_t>(beam)];
+        positions[i] -= (offset * ray.normalized()).cast<float>();
+    }
+}
+
+std::vector<HiddenPoint> remove_beam_offsets(ScanMap& map) {
+    std::vector<HiddenPoint> moved;
+    for (const MapSection& section : map.sections) {
+        if (!section.sensor_position || !section.sensor_axes) continue;
+        const auto positions = std::span(map.cloud.positions).subspan(section.first, section.count);
+        const std::optional<BeamOffsets> beams =
+            find_beam_offsets(positions, *section.sensor_position, *section.sensor_axes);
+        if (!beams) continue;
+        for (std::uint32_t i = 0; i < section.count; ++i) {
+            if (beams->beam_of_point[i] >= 0) moved.push_back({section.first + i, positions[i]});
+        }
+        remove_beam_offsets(positions, *section.sensor_position, *beams);
+    }
+    return moved;
+}
+
+}  // namespace roomscribe
