@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <numbers>
 
 #include <Eigen/Dense>
 
@@ -39,43 +38,83 @@ struct RingPoint {
 };
 using Cell = std::vector<RingPoint>;
 
-/// Rings are the runs of bins between gaps; all points of other scanners make one wide run.
-std::vector<std::int32_t> number_rings(std::span<const double> elevations, std::size_t num_finite) {
-    // The densest rings, of 128 beams, are 0.35 degrees apart.
-    constexpr double bin_size = radians(0.02);
-    constexpr std::size_t max_width = 5;
-    const std::size_t min_points = std::max<std::size_t>(20, num_finite / 1000);
-    const auto bin_of = [](double elevation) {
-        return static_cast<std::size_t>((elevation + 0.5 * std::numbers::pi) / bin_size);
-    };
-    std::vector<std::size_t> counts(bin_of(0.5 * std::numbers::pi) + max_width + 2, 0);
-    for (const double elevation : elevations) {
-        if (std::isfinite(elevation)) ++counts[bin_of(elevation)];
+/// The rays of a scan, with the sine of their elevation; NaN for what is no return.
+class Rays {
+  public:
+    Rays(std::span<const Eigen::Vector3f> positions, const Vector3d& origin, const Vector3d& axis)
+        : positions_(positions), origin_(origin), axis_(axis) {}
+    std::size_t size() const { return positions_.size(); }
+    Vector3d operator[](std::size_t i) const { return positions_[i].cast<double>() - origin_; }
+    double elevation_sine(std::size_t i) const {
+        const Vector3d ray = (*this)[i];
+        return axis_.dot(ray) / ray.norm();
     }
-    std::vector<std::int32_t> ring_of_bin(counts.size(), -1);
-    std::int32_t num_rings = 0;
-    std::size_t first = 0;
-    std::size_t last = 0;
-    std::size_t count = 0;
-    for (std::size_t bin = 0; bin < counts.size(); ++bin) {
-        if (count > 0 && bin - last > max_width) {
-            if (count >= min_points && last - first < max_width) {
-                std::fill(ring_of_bin.begin() + static_cast<std::ptrdiff_t>(first),
-                          ring_of_bin.begin() + static_cast<std::ptrdiff_t>(last) + 1, num_rings++);
-            }
-            count = 0;
+
+  private:
+    std::span<const Eigen::Vector3f> positions_;
+    Vector3d origin_;
+    Vector3d axis_;
+};
+
+/// Which ring a ray belongs to. Rings are narrow runs of bins between gaps; the rays of other
+/// scanners lie at all elevations and make one wide run. Bins are even in the sine of the
+/// elevation, which takes no arc function for each point of a large cloud.
+class RingBins {
+  public:
+    explicit RingBins(const Rays& rays) : ring_of_bin_(bin_of(1.0) + max_width + 2, -1) {
+        std::vector<std::size_t> counts(ring_of_bin_.size(), 0);
+        for (std::size_t i = 0; i < rays.size(); ++i) {
+            const double sine = rays.elevation_sine(i);
+            if (!std::isfinite(sine)) continue;
+            ++counts[bin_of(sine)];
+            ++num_rays_;
         }
-        if (counts[bin] == 0) continue;
-        if (count == 0) first = bin;
-        last = bin;
-        count += counts[bin];
+        number(counts);
     }
-    std::vector<std::int32_t> rings(elevations.size(), -1);
-    for (std::size_t i = 0; i < elevations.size(); ++i) {
-        if (std::isfinite(elevations[i])) rings[i] = ring_of_bin[bin_of(elevations[i])];
+
+    std::size_t num_rings() const { return static_cast<std::size_t>(num_rings_); }
+    /// Strays and rounding may leave the rings.
+    bool hold_most() const { return 20 * num_on_rings_ >= 19 * num_rays_; }
+    std::int32_t ring_of(double sine) const {
+        return std::isfinite(sine) ? ring_of_bin_[bin_of(sine)] : -1;
     }
-    return rings;
-}
+
+  private:
+    // The densest rings, of 128 beams, are 0.35 degrees apart.
+    static constexpr double bin_size = radians(0.02);
+    static constexpr std::size_t max_width = 5;
+
+    static std::size_t bin_of(double sine) {
+        return static_cast<std::size_t>((std::clamp(sine, -1.0, 1.0) + 1.0) / bin_size);
+    }
+
+    void number(const std::vector<std::size_t>& counts) {
+        const std::size_t min_rays = std::max<std::size_t>(20, num_rays_ / 1000);
+        std::size_t first = 0;
+        std::size_t last = 0;
+        std::size_t count = 0;
+        for (std::size_t bin = 0; bin < counts.size(); ++bin) {
+            if (count > 0 && bin - last > max_width) {
+                if (count >= min_rays && last - first < max_width) {
+                    for (std::size_t k = first; k <= last; ++k)
+                        ring_of_bin_[k] = num_rings_;
+                    ++num_rings_;
+                    num_on_rings_ += count;
+                }
+                count = 0;
+            }
+            if (counts[bin] == 0) continue;
+            if (count == 0) first = bin;
+            last = bin;
+            count += counts[bin];
+        }
+    }
+
+    std::vector<std::int32_t> ring_of_bin_;
+    std::int32_t num_rings_ = 0;
+    std::size_t num_rays_ = 0;
+    std::size_t num_on_rings_ = 0;
+};
 
 /// One beam's points in a cell: the mean of their places, their mean height over the cell's plane
 /// and how much of a longer range is height.
@@ -273,31 +312,20 @@ std::vector<double> solve_offsets(const std::vector<Cell>& cells, std::size_t nu
 std::optional<BeamOffsets> find_beam_offsets(std::span<const Eigen::Vector3f> positions,
                                              const Vector3d& sensor_position,
                                              const Eigen::Matrix3d& sensor_axes) {
-    constexpr double min_share_on_rings = 0.95;  // strays leave the rings
-    const auto ray_to = [&](std::size_t i) -> Vector3d {
-        return positions[i].cast<double>() - sensor_position;
-    };
-    std::vector<double> elevations(positions.size());
-    std::size_t num_finite = 0;
-    for (std::size_t i = 0; i < positions.size(); ++i) {
-        elevations[i] =
-            std::asin(std::clamp(sensor_axes.col(2).dot(ray_to(i)) / ray_to(i).norm(), -1.0, 1.0));
-        if (std::isfinite(elevations[i])) ++num_finite;
-    }
-    BeamOffsets result;
-    result.beam_of_point = number_rings(elevations, num_finite);
-    std::vector<RingPoint> points;
-    std::size_t num_beams = 0;
-    for (std::size_t i = 0; i < positions.size(); ++i) {
-        if (result.beam_of_point[i] < 0) continue;
-        const auto beam = static_cast<std::size_t>(result.beam_of_point[i]);
-        num_beams = std::max(num_beams, beam + 1);
-        points.push_back({ray_to(i).normalized(), ray_to(i).norm(), beam});
-    }
-    if (num_beams < min_beams || num_beams > max_beams ||
-        static_cast<double>(points.size()) < min_share_on_rings * static_cast<double>(num_finite))
+    const Rays rays(positions, sensor_position, sensor_axes.col(2));
+    const RingBins bins(rays);
+    if (bins.num_rings() < min_beams || bins.num_rings() > max_beams || !bins.hold_most())
         return std::nullopt;
-    result.offsets = solve_offsets(cut_into_cells(points), num_beams);
+    BeamOffsets result;
+    result.beam_of_point.reserve(rays.size());
+    std::vector<RingPoint> points;
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        const std::int32_t beam = bins.ring_of(rays.elevation_sine(i));
+        result.beam_of_point.push_back(beam);
+        if (beam < 0) continue;
+        points.push_back({rays[i].normalized(), rays[i].norm(), static_cast<std::size_t>(beam)});
+    }
+    result.offsets = solve_offsets(cut_into_cells(points), bins.num_rings());
     if (result.offsets.empty()) return std::nullopt;
     return result;
 }
