@@ -72,7 +72,8 @@ class RingBins {
         number(counts);
     }
 
-    std::size_t num_rings() const { return static_cast<std::size_t>(num_rings_); }
+    std::size_t num_rings() const { return sines_.size(); }
+    const std::vector<double>& elevation_sines() const { return sines_; }
     /// Strays and rounding may leave the rings.
     bool hold_most() const { return 20 * num_on_rings_ >= 19 * num_rays_; }
     std::int32_t ring_of(double sine) const {
@@ -97,8 +98,8 @@ class RingBins {
             if (count > 0 && bin - last > max_width) {
                 if (count >= min_rays && last - first < max_width) {
                     for (std::size_t k = first; k <= last; ++k)
-                        ring_of_bin_[k] = num_rings_;
-                    ++num_rings_;
+                        ring_of_bin_[k] = static_cast<std::int32_t>(sines_.size());
+                    sines_.push_back(0.5 * bin_size * static_cast<double>(first + last + 1) - 1.0);
                     num_on_rings_ += count;
                 }
                 count = 0;
@@ -111,7 +112,7 @@ class RingBins {
     }
 
     std::vector<std::int32_t> ring_of_bin_;
-    std::int32_t num_rings_ = 0;
+    std::vector<double> sines_;  ///< of the rings' middles
     std::size_t num_rays_ = 0;
     std::size_t num_on_rings_ = 0;
 };
@@ -307,27 +308,72 @@ std::vector<double> solve_offsets(const std::vector<Cell>& cells, std::size_t nu
     return offsets;
 }
 
-}  // namespace
-
-std::optional<BeamOffsets> find_beam_offsets(std::span<const Eigen::Vector3f> positions,
-                                             const Vector3d& sensor_position,
-                                             const Eigen::Matrix3d& sensor_axes) {
-    const Rays rays(positions, sensor_position, sensor_axes.col(2));
+/// Nothing if there are no rings; without offsets if these are not told.
+std::optional<BeamOffsets> find_beams(const ScannedPoints& scan) {
+    const Rays rays(scan.positions, scan.sensor_position, scan.sensor_axes.col(2));
     const RingBins bins(rays);
     if (bins.num_rings() < min_beams || bins.num_rings() > max_beams || !bins.hold_most())
         return std::nullopt;
-    BeamOffsets result;
-    result.beam_of_point.reserve(rays.size());
+    BeamOffsets beams;
+    beams.elevation_sines = bins.elevation_sines();
+    beams.beam_of_point.reserve(rays.size());
     std::vector<RingPoint> points;
     for (std::size_t i = 0; i < rays.size(); ++i) {
         const std::int32_t beam = bins.ring_of(rays.elevation_sine(i));
-        result.beam_of_point.push_back(beam);
+        beams.beam_of_point.push_back(beam);
         if (beam < 0) continue;
         points.push_back({rays[i].normalized(), rays[i].norm(), static_cast<std::size_t>(beam)});
     }
-    result.offsets = solve_offsets(cut_into_cells(points), bins.num_rings());
-    if (result.offsets.empty()) return std::nullopt;
-    return result;
+    beams.offsets = solve_offsets(cut_into_cells(points), bins.num_rings());
+    return beams;
+}
+
+bool have_like_rings(const BeamOffsets& a, const BeamOffsets& b) {
+    constexpr double max_difference = 0.001;  // of sines, as files round; rings are 0.006 apart
+    return std::equal(a.elevation_sines.begin(), a.elevation_sines.end(), b.elevation_sines.begin(),
+                      b.elevation_sines.end(),
+                      [](double x, double y) { return std::abs(x - y) <= max_difference; });
+}
+
+/// The mean of what scans with like rings told; empty if fewer than two did.
+std::vector<double> offsets_of_others(const BeamOffsets& scan,
+                                      std::span<const std::optional<BeamOffsets>> all,
+                                      std::span<const std::size_t> telling) {
+    std::vector<double> mean(scan.elevation_sines.size(), 0.0);
+    double count = 0.0;
+    for (const std::size_t other : telling) {
+        if (!have_like_rings(scan, *all[other])) continue;
+        count += 1.0;
+        for (std::size_t beam = 0; beam < mean.size(); ++beam)
+            mean[beam] += all[other]->offsets[beam];
+    }
+    if (count < 2.0) return {};
+    for (double& offset : mean)
+        offset /= count;
+    return mean;
+}
+
+}  // namespace
+
+std::optional<BeamOffsets> find_beam_offsets(const ScannedPoints& scan) {
+    std::optional<BeamOffsets> beams = find_beams(scan);
+    if (beams && beams->offsets.empty()) beams.reset();
+    return beams;
+}
+
+std::vector<std::optional<BeamOffsets>> find_beam_offsets(std::span<const ScannedPoints> scans) {
+    std::vector<std::optional<BeamOffsets>> found;
+    std::vector<std::size_t> telling;
+    for (const ScannedPoints& scan : scans) {
+        found.push_back(find_beams(scan));
+        if (found.back() && !found.back()->offsets.empty()) telling.push_back(found.size() - 1);
+    }
+    for (std::optional<BeamOffsets>& beams : found) {
+        if (!beams || !beams->offsets.empty()) continue;
+        beams->offsets = offsets_of_others(*beams, found, telling);
+        if (beams->offsets.empty()) beams.reset();
+    }
+    return found;
 }
 
 void remove_beam_offsets(std::span<Eigen::Vector3f> positions, const Vector3d& sensor_position,
@@ -342,17 +388,25 @@ void remove_beam_offsets(std::span<Eigen::Vector3f> positions, const Vector3d& s
 }
 
 std::vector<HiddenPoint> remove_beam_offsets(ScanMap& map) {
-    std::vector<HiddenPoint> moved;
+    std::vector<ScannedPoints> scans;
+    std::vector<std::uint32_t> first_points;
     for (const MapSection& section : map.sections) {
         if (!section.sensor_position || !section.sensor_axes) continue;
-        const auto positions = std::span(map.cloud.positions).subspan(section.first, section.count);
-        const std::optional<BeamOffsets> beams =
-            find_beam_offsets(positions, *section.sensor_position, *section.sensor_axes);
-        if (!beams) continue;
-        for (std::uint32_t i = 0; i < section.count; ++i) {
-            if (beams->beam_of_point[i] >= 0) moved.push_back({section.first + i, positions[i]});
+        scans.push_back({std::span(map.cloud.positions).subspan(section.first, section.count),
+                         *section.sensor_position, *section.sensor_axes});
+        first_points.push_back(section.first);
+    }
+    const std::vector<std::optional<BeamOffsets>> found = find_beam_offsets(scans);
+    std::vector<HiddenPoint> moved;
+    for (std::size_t scan = 0; scan < scans.size(); ++scan) {
+        if (!found[scan]) continue;
+        const auto positions = std::span(map.cloud.positions)
+                                   .subspan(first_points[scan], scans[scan].positions.size());
+        for (std::uint32_t i = 0; i < positions.size(); ++i) {
+            if (found[scan]->beam_of_point[i] >= 0)
+                moved.push_back({first_points[scan] + i, positions[i]});
         }
-        remove_beam_offsets(positions, *section.sensor_position, *beams);
+        remove_beam_offsets(positions, scans[scan].sensor_position, *found[scan]);
     }
     return moved;
 }

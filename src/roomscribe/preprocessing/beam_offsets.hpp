@@ -18,9 +18,17 @@ namespace roomscribe {
 // analysis of the Velodyne HDL-64E S2): as much as the noise of a single range, but no averaging
 // along the ring lessens it. Flat surfaces that several rings cross tell it.
 
+/// What a scanner saw, and from where.
+struct ScannedPoints {
+    std::span<const Eigen::Vector3f> positions;
+    Eigen::Vector3d sensor_position = Eigen::Vector3d::Zero();
+    Eigen::Matrix3d sensor_axes = Eigen::Matrix3d::Identity();  ///< scanner's frame -> the points'
+};
+
 /// The beams of a scan, each a ring of one elevation, by rising elevation.
 struct BeamOffsets {
     std::vector<std::int32_t> beam_of_point;  ///< -1 for what is on no ring
+    std::vector<double> elevation_sines;      ///< per beam, to a thousandth
     std::vector<double> offsets;              ///< m, per beam: its ranges are too long by so much
 };
 
@@ -28,10 +36,11 @@ struct BeamOffsets {
 /// two halves of what they saw do not tell like offsets of at least 5 mm: where little is flat, or
 /// nothing wrong. What all beams have in common, or what changes evenly from each to the next, no
 /// surface tells; it is taken for none.
-/// `sensor_axes`: the scanner's own frame -> that of the points.
-std::optional<BeamOffsets> find_beam_offsets(std::span<const Eigen::Vector3f> positions,
-                                             const Eigen::Vector3d& sensor_position,
-                                             const Eigen::Matrix3d& sensor_axes);
+std::optional<BeamOffsets> find_beam_offsets(const ScannedPoints& scan);
+
+/// The same of the scans of one job, which mostly are of one scanner: a scan that does not tell
+/// offsets itself has the mean ones of those with like rings, if two or more tell them.
+std::vector<std::optional<BeamOffsets>> find_beam_offsets(std::span<const ScannedPoints> scans);
 
 /// Takes the beams' offsets out of the ranges, in place.
 void remove_beam_offsets(std::span<Eigen::Vector3f> positions,

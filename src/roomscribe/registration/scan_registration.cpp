@@ -21,26 +21,14 @@
 namespace roomscribe {
 namespace {
 
-/// The scan without its beams' offsets; nothing if it has none.
-std::optional<Scan> without_beam_offsets(const Scan& scan) {
-    const std::optional<BeamOffsets> beams =
-        find_beam_offsets(scan.cloud.positions, scan.sensor_position(), scan.sensor_axes());
-    if (!beams) return std::nullopt;
-    Scan corrected = scan;
-    remove_beam_offsets(corrected.cloud.positions, scan.sensor_position(), *beams);
-    return corrected;
-}
-
 /// The scans without what is no return and without their beams' offsets; those that have neither
 /// are not copied.
 class CleanScans {
   public:
     CleanScans(std::span<const Scan> scans, const Context& context) : as_given_(scans) {
-        for (const Scan& scan : scans) {
-            std::optional<Scan> returns = without_false_returns(scan, context);
-            std::optional<Scan> corrected = without_beam_offsets(returns ? *returns : scan);
-            cleaned_.push_back(corrected ? std::move(corrected) : std::move(returns));
-        }
+        for (const Scan& scan : scans)
+            cleaned_.push_back(without_false_returns(scan, context));
+        remove_offsets();
     }
     const Scan& operator[](std::size_t i) const {
         return cleaned_[i] ? *cleaned_[i] : as_given_[i];
@@ -48,6 +36,20 @@ class CleanScans {
     std::size_t size() const { return cleaned_.size(); }
 
   private:
+    void remove_offsets() {
+        std::vector<ScannedPoints> points;
+        for (std::size_t i = 0; i < size(); ++i) {
+            const Scan& scan = (*this)[i];
+            points.push_back({scan.cloud.positions, scan.sensor_position(), scan.sensor_axes()});
+        }
+        const std::vector<std::optional<BeamOffsets>> found = find_beam_offsets(points);
+        for (std::size_t i = 0; i < size(); ++i) {
+            if (!found[i]) continue;
+            if (!cleaned_[i]) cleaned_[i] = as_given_[i];
+            remove_beam_offsets(cleaned_[i]->cloud.positions, points[i].sensor_position, *found[i]);
+        }
+    }
+
     std::span<const Scan> as_given_;
     std::vector<std::optional<Scan>> cleaned_;
 };

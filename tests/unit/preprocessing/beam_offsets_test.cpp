@@ -57,7 +57,7 @@ std::vector<Eigen::Vector3f> scan_room(const Rings& rings, const Vector3d& senso
 TEST(BeamOffsets, AreFoundAndTakenOut) {
     const Vector3d sensor(0.2, -0.3, 1.1);
     std::vector<Eigen::Vector3f> points = scan_room({}, sensor);
-    const auto beams = find_beam_offsets(points, sensor, Eigen::Matrix3d::Identity());
+    const auto beams = find_beam_offsets({points, sensor});
     ASSERT_TRUE(beams);
     ASSERT_EQ(beams->offsets.size(), 32U);
     for (std::size_t beam = 0; beam < 32; ++beam)
@@ -66,23 +66,38 @@ TEST(BeamOffsets, AreFoundAndTakenOut) {
     const Eigen::Vector3f before = points[450];
     remove_beam_offsets(points, sensor, *beams);
     EXPECT_NEAR((points[450] - before).norm(), 0.015, 0.007);
-    EXPECT_FALSE(find_beam_offsets(points, sensor, Eigen::Matrix3d::Identity()));
+    EXPECT_FALSE(find_beam_offsets({points, sensor}));
 }
 
 TEST(BeamOffsets, AreNotMadeUp) {
-    EXPECT_FALSE(find_beam_offsets(scan_room({.offset_scale = 0.0}), Vector3d::Zero(),
-                                   Eigen::Matrix3d::Identity()));
+    const std::vector<Eigen::Vector3f> points = scan_room({.offset_scale = 0.0});
+    EXPECT_FALSE(find_beam_offsets({points}));
 }
 
 TEST(BeamOffsets, NeedRingsAboutTheScanner) {
     // Lines of a single laser that turns, closer than any beams.
-    EXPECT_FALSE(find_beam_offsets(scan_room({.num_beams = 400, .step = radians(0.15)}),
-                                   Vector3d::Zero(), Eigen::Matrix3d::Identity()));
+    const std::vector<Eigen::Vector3f> lines = scan_room({.num_beams = 400, .step = radians(0.15)});
+    EXPECT_FALSE(find_beam_offsets({lines}));
     // Seen from elsewhere, or about another axis, the points lie at all elevations.
-    EXPECT_FALSE(find_beam_offsets(scan_room({}), {0.5, 0.0, 0.5}, Eigen::Matrix3d::Identity()));
+    const std::vector<Eigen::Vector3f> rings = scan_room({});
+    EXPECT_FALSE(find_beam_offsets({rings, {0.5, 0.0, 0.5}}));
     const Eigen::Matrix3d lying = Eigen::AngleAxisd(1.0, Vector3d::UnitX()).toRotationMatrix();
-    EXPECT_FALSE(find_beam_offsets(scan_room({}), Vector3d::Zero(), lying));
-    EXPECT_FALSE(find_beam_offsets({}, Vector3d::Zero(), Eigen::Matrix3d::Identity()));
+    EXPECT_FALSE(find_beam_offsets({rings, Vector3d::Zero(), lying}));
+    EXPECT_FALSE(find_beam_offsets(ScannedPoints{}));
+}
+
+TEST(BeamOffsets, AreSharedByScansOfOneScanner) {
+    const std::vector<Eigen::Vector3f> telling = scan_room({});
+    // So rough a room tells nothing.
+    const std::vector<Eigen::Vector3f> rough = scan_room({.noise = 0.3});
+    const std::vector<Eigen::Vector3f> other = scan_room({.num_beams = 16, .noise = 0.3});
+    const std::vector<ScannedPoints> scans{{rough}, {telling}, {other}, {telling}};
+    const auto found = find_beam_offsets(scans);
+    ASSERT_TRUE(found[0]);
+    ASSERT_TRUE(found[1]);
+    EXPECT_EQ(found[0]->offsets, found[1]->offsets);
+    EXPECT_FALSE(found[2]) << "of another scanner";
+    EXPECT_FALSE(find_beam_offsets(std::span(scans).first(2))[0]) << "one alone may be wrong";
 }
 
 TEST(BeamOffsets, OfAMapCanBePutBack) {
