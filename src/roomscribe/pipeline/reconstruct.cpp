@@ -23,6 +23,7 @@
 #include "roomscribe/interpretation/paper_rules/plane_quadrilaterals.hpp"
 #include "roomscribe/model/kept_result.hpp"
 #include "roomscribe/model/result_bytes.hpp"
+#include "roomscribe/preprocessing/beam_offsets.hpp"
 #include "roomscribe/preprocessing/false_returns.hpp"
 #include "roomscribe/preprocessing/scan_origin.hpp"
 #include "roomscribe/structure/outlined_patches.hpp"
@@ -359,6 +360,13 @@ void interpret_map(Reconstruction& reconstruction, const PipelineSettings& setti
             {"interpretation.false_returns", static_cast<double>(hidden.size()), "",
              "points at the end of the scanner's range or on no surface: left out, unknown"});
     }
+    const std::vector<HiddenPoint> moved = remove_beam_offsets(reconstruction.map);
+    if (!moved.empty()) {
+        reconstruction.derived_values.push_back(
+            {"interpretation.beam_offsets", static_cast<double>(moved.size()), "",
+             "points on rings of a spinning lidar whose ranges are too long or too short: "
+             "interpreted where they should be"});
+    }
     const ScanMap& map = reconstruction.map;
     if (settings.interpretation.method == InterpretationMethod::paper) {
         interpret_as_paper(reconstruction, map, settings, context);
@@ -367,6 +375,7 @@ void interpret_map(Reconstruction& reconstruction, const PipelineSettings& setti
     }
     measure_support(map, reconstruction.labels, reconstruction.scene.components, context);
     doubt_blurred_places(reconstruction.scene, reconstruction.labels);
+    put_back(moved, reconstruction.map);
     put_back(hidden, reconstruction.map);
 }
 

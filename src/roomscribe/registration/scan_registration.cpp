@@ -13,6 +13,7 @@
 #include "roomscribe/core/quantile.hpp"
 #include "roomscribe/model/kept_result.hpp"
 #include "roomscribe/model/result_bytes.hpp"
+#include "roomscribe/preprocessing/beam_offsets.hpp"
 #include "roomscribe/preprocessing/false_returns.hpp"
 #include "roomscribe/preprocessing/scan_statistics.hpp"
 #include "roomscribe/registration/graph/link_consistency.hpp"
@@ -20,12 +21,14 @@
 namespace roomscribe {
 namespace {
 
-/// The scans without what is no return; those that have none are not copied.
+/// The scans without what is no return and without their beams' offsets; those that have neither
+/// are not copied.
 class CleanScans {
   public:
     CleanScans(std::span<const Scan> scans, const Context& context) : as_given_(scans) {
         for (const Scan& scan : scans)
             cleaned_.push_back(without_false_returns(scan, context));
+        remove_offsets();
     }
     const Scan& operator[](std::size_t i) const {
         return cleaned_[i] ? *cleaned_[i] : as_given_[i];
@@ -33,6 +36,20 @@ class CleanScans {
     std::size_t size() const { return cleaned_.size(); }
 
   private:
+    void remove_offsets() {
+        std::vector<ScannedPoints> points;
+        for (std::size_t i = 0; i < size(); ++i) {
+            const Scan& scan = (*this)[i];
+            points.push_back({scan.cloud.positions, scan.sensor_position(), scan.sensor_axes()});
+        }
+        const std::vector<std::optional<BeamOffsets>> found = find_beam_offsets(points);
+        for (std::size_t i = 0; i < size(); ++i) {
+            if (!found[i]) continue;
+            if (!cleaned_[i]) cleaned_[i] = as_given_[i];
+            remove_beam_offsets(cleaned_[i]->cloud.positions, points[i].sensor_position, *found[i]);
+        }
+    }
+
     std::span<const Scan> as_given_;
     std::vector<std::optional<Scan>> cleaned_;
 };
