@@ -13,6 +13,7 @@
 #include "roomscribe/interpretation/fixtures/front_parts.hpp"
 #include "roomscribe/interpretation/fixtures/furniture_fixtures.hpp"
 #include "roomscribe/interpretation/fixtures/opening_motion.hpp"
+#include "roomscribe/interpretation/fixtures/standoff_clusters.hpp"
 #include "roomscribe/preprocessing/scan_statistics.hpp"
 
 namespace roomscribe {
@@ -167,6 +168,30 @@ TEST(FindFixtures, KeepsTwoKnobsInARowApart) {
     ASSERT_EQ(fixtures.size(), 2U);
     EXPECT_EQ(fixtures[0].component.kind, "knob");
     EXPECT_EQ(fixtures[1].component.kind, "knob");
+}
+
+/// Clusters of the edge of a worktop, 1.2 m long, and of a bar 16 mm below it, on a face whose
+/// points are 8 mm apart.
+std::size_t num_clusters_below_worktop(float noise) {
+    FaceRelief relief;
+    relief.cell_size = 2.0;
+    relief.num_columns = relief.num_rows = 1;
+    relief.base = {0.0F};
+    relief.noise = {noise};
+    relief.spacing = {0.008F};
+    std::vector<FacePoint> points;
+    for (float along = 0.0F; along <= 1.2F; along += 0.008F) {
+        points.push_back({along, 0.78F, 0.03F, 0, 0});
+        points.push_back({along, 0.788F, 0.03F, 0, 0});
+        if (along >= 0.4F && along <= 0.56F) points.push_back({along, 0.764F, 0.03F, 0, 0});
+    }
+    return find_standoff_clusters(relief, points).size();
+}
+
+TEST(FindStandoffClusters, PartsABarFromTheEdgeOfAWorktop) {
+    EXPECT_EQ(num_clusters_below_worktop(0.001F), 2U);
+    // Noise would part anything.
+    EXPECT_EQ(num_clusters_below_worktop(0.008F), 1U);
 }
 
 TEST(FindFixtures, DropsWhatIsTooThickForTheGripper) {

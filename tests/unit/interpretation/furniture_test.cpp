@@ -14,6 +14,7 @@
 #include "roomscribe/core/random.hpp"
 #include "roomscribe/core/units.hpp"
 #include "roomscribe/interpretation/furniture/level_slabs.hpp"
+#include "roomscribe/interpretation/furniture/piece_drafts.hpp"
 #include "roomscribe/interpretation/furniture/piece_faces.hpp"
 #include "roomscribe/interpretation/furniture/piece_kinds.hpp"
 #include "roomscribe/interpretation/furniture/plan_rectangle.hpp"
@@ -416,6 +417,7 @@ class MadeUpVoxels {
                     voxel.height = z;
                     voxel.is_level = is_level;
                     voxel.is_upright = !is_level;
+                    voxel.is_planar = true;
                     voxel.is_core = true;
                     all_.voxels.push_back(voxel);
                 }
@@ -497,6 +499,43 @@ TEST(FindLevelSlabs, PartsSeatsThatNoiseTiesTogether) {
     MadeUpVoxels bench;
     bench.fill({0.0, 0.0, 0.45}, {1.0, 0.44, 0.45}, true);
     EXPECT_EQ(find_level_slabs(bench.finish(), MadeUpVoxels::edge).size(), 1U);
+}
+
+TEST(FindLevelSlabs, JoinsNoSeatsOfARow) {
+    for (const bool noise_ties_them : {false, true}) {
+        MadeUpVoxels row;
+        for (const double start : {0.0, 0.6, 1.2})
+            row.fill({start, 0.0, 0.45}, {start + 0.44, 0.44, 0.45}, true);
+        for (const double gap : {0.48, 1.08}) {
+            if (noise_ties_them) row.fill({gap, 0.2, 0.45}, {gap + 0.08, 0.24, 0.45}, true);
+        }
+        EXPECT_EQ(find_level_slabs(row.finish(), MadeUpVoxels::edge).size(), 3U);
+    }
+}
+
+/// Pieces of three seats, closed below, on one plate.
+std::size_t num_drafts_of_seats(double gap) {
+    constexpr double seat = 0.64;
+    MadeUpVoxels made;
+    double start = 0.0;
+    for (const double height : {0.45, 0.5, 0.45}) {
+        made.fill({start, 0.0, height}, {start + seat, seat, height}, true);
+        for (const double side : {0.0, seat})
+            made.fill({start, side, 0.08}, {start + seat, side, 0.4});
+        start += seat + gap;
+    }
+    made.fill({0.0, 0.04, 0.08}, {start - gap, seat - 0.04, 0.08});
+    const FurnitureVoxels all = made.finish();
+    const std::vector<PieceDraft> drafts =
+        draft_pieces(all, find_level_slabs(all, MadeUpVoxels::edge));
+    return static_cast<std::size_t>(
+        std::count_if(drafts.begin(), drafts.end(),
+                      [](const PieceDraft& draft) { return !draft.voxels.empty(); }));
+}
+
+TEST(DraftPieces, TellsSeatsInARowFromASofa) {
+    EXPECT_EQ(num_drafts_of_seats(0.04), 1U);
+    EXPECT_GE(num_drafts_of_seats(0.2), 3U);
 }
 
 /// Panels of a front of 1.2 x 0.8 m, down the middle of which a line lies deeper.
@@ -634,6 +673,62 @@ TEST(JudgePiece, AsksOfSeatsAndTopsTheirSizes) {
     EXPECT_EQ(judge_piece(desk).kind, "desk");
     desk.rectangle.width = 0.4;  // the back of a sofa
     EXPECT_LT(judge_piece(desk).confidence, 0.5);
+}
+
+TEST(JudgePiece, AsksOfNarrowFrontsThatTheyAreFlatAllOver) {
+    PieceForm narrow = upright_form(0.55, 0.06, 0.07, 1.75);
+    narrow.depth = 0.5;
+    narrow.face = 0.95 * narrow.surface;
+    EXPECT_TRUE(judge_piece(narrow).is_furniture);
+    // A plant or a coat rack.
+    narrow.face = 0.4 * narrow.surface;
+    EXPECT_FALSE(judge_piece(narrow).is_furniture);
+    // A column.
+    EXPECT_FALSE(judge_piece(upright_form(0.45, 0.4, 0.07, 2.0)).is_furniture);
+}
+
+TEST(JudgePiece, TellsAWallUnitFromAPilaster) {
+    PieceForm unit = upright_form(0.5, 0.34, 1.4, 2.1);
+    unit.depth = 0.36;
+    unit.is_at_wall = true;
+    EXPECT_EQ(judge_piece(unit).kind, "wall_unit");
+    unit.bottom = 0.95;
+    unit.top = 2.6;
+    EXPECT_FALSE(judge_piece(unit).is_furniture);
+}
+
+TEST(JudgePiece, TellsShallowCupboardsFromRadiators) {
+    PieceForm shallow = upright_form(0.8, 0.18, 0.07, 1.15);
+    shallow.depth = 0.22;
+    shallow.is_at_wall = true;
+    EXPECT_EQ(judge_piece(shallow).kind, "cabinet");
+    shallow.top = 0.8;
+    EXPECT_EQ(judge_piece(shallow).kind, "radiator");
+}
+
+TEST(JudgePiece, TakesLowBoardsBeforeAWallForAShelf) {
+    PieceForm shelf = upright_form(0.8, 0.34, 0.07, 0.82);
+    shelf.is_at_wall = true;
+    shelf.depth = 0.36;
+    shelf.num_slabs = 2;
+    shelf.seat = shelf.highest_slab = 0.8;
+    shelf.seat_area = 0.25;
+    shelf.closed = 0.3;
+    EXPECT_EQ(judge_piece(shelf).kind, "shelf");
+    shelf.seat_area = 0.1;  // a radiator with its sill, a plant
+    EXPECT_NE(judge_piece(shelf).kind, "shelf");
+}
+
+TEST(JudgePiece, TellsAnArmchairFromAPlantInItsPot) {
+    PieceForm chair = upright_form(1.0, 0.8, 0.07, 0.9);
+    chair.num_slabs = 1;
+    chair.seat = chair.highest_slab = 0.4;
+    chair.seat_area = 0.3;
+    chair.closed = 1.0;
+    EXPECT_EQ(judge_piece(chair).kind, "armchair");
+    chair.seat = chair.highest_slab = 0.3;
+    chair.seat_area = 0.05;
+    EXPECT_LT(judge_piece(chair).confidence, 0.5);
 }
 
 TEST(JudgePiece, LabelsWhatIsAsLargeAsFurnitureButFitsNoKindAsOther) {

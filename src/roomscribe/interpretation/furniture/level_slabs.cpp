@@ -123,7 +123,7 @@ void join_shadowed(const FurnitureVoxels& all, std::vector<LevelSlab>& slabs, do
                 LevelSlab joint = make_slab(all, std::move(both), voxel_size);
                 const bool is_seats =
                     a.height < min_table_height &&
-                    std::max(a.rectangle.length, b.rectangle.length) <= max_seat_width;
+                    std::min(a.rectangle.length, b.rectangle.length) <= max_seat_width;
                 joins = (is_seats ? joint.rectangle.length <= max_seat_width
                                   : fits_a_table(joint.rectangle)) &&
                         joint.area >= min_joint_fill * joint.rectangle.area();

@@ -106,7 +106,7 @@ class UpholsteryTest {
         const PlanRectangle both = smallest_rectangle(places);
         const bool is_sofa = both.length <= 2.6 && both.width <= 1.15;
         const bool is_bed = both.length <= 2.4 && both.width <= 2.2;
-        const bool fills = a.area + b.area >= 0.7 * both.area();
+        const bool fills = a.area + b.area >= 0.7 * both.area() && !has_gap(places, both);
         return (is_sofa || is_bed) && fills && is_closed_below(both, a);
     }
 
@@ -132,6 +132,14 @@ class UpholsteryTest {
         const bool is_bed = whole.length <= 2.5 && whole.length >= 1.8 && whole.width <= 2.3;
         constexpr double min_fill = 0.8;
         if (filled_area(cluster) < min_fill * whole.area()) return false;
+        constexpr double cushion_step = 0.06;  // m
+        std::vector<Eigen::Vector2d> seat;
+        for (const std::uint32_t i : cluster) {
+            if (all_.voxels[i].is_level &&
+                std::abs(all_.voxels[i].height - largest->height) <= cushion_step)
+                seat.push_back(all_.voxels[i].place.head<2>());
+        }
+        if (has_gap(seat, whole)) return false;
         return (is_sofa || is_bed) && is_closed_below(whole, *largest);
     }
 
@@ -141,6 +149,23 @@ class UpholsteryTest {
         constexpr double min_gap = 0.07;
         return use_of(a) == SlabUse::seat && use_of(b) == SlabUse::seat &&
                !touch(all_, a, b, min_gap);
+    }
+
+    /// Whether seats leave a gap between them along a rectangle, as chairs in a row do.
+    bool has_gap(std::span<const Eigen::Vector2d> places, const PlanRectangle& rectangle) const {
+        constexpr std::size_t few = 3;  // voxels of a seat's depth
+        std::vector<std::size_t> count(static_cast<std::size_t>(rectangle.length / all_.reach) + 1,
+                                       0);
+        for (const Eigen::Vector2d& place : places) {
+            const double along =
+                (place - rectangle.center).dot(rectangle.axis) + 0.5 * rectangle.length;
+            ++count[std::min(static_cast<std::size_t>(std::max(along, 0.0) / all_.reach),
+                             count.size() - 1)];
+        }
+        const auto is_filled = [](std::size_t n) { return n >= few; };
+        const auto first = std::find_if(count.begin(), count.end(), is_filled);
+        const auto last = std::find_if(count.rbegin(), count.rend(), is_filled).base();
+        return first < last && !std::all_of(first, last, is_filled);
     }
 
     /// A top at a table's height that is wider than a back or an arm is none.
@@ -170,6 +195,8 @@ class UpholsteryTest {
         for (const FurnitureVoxel& voxel : all_.voxels) {
             if (voxel.room != all_.voxels[some.voxels.front()].room) continue;
             if (voxel.height < low || voxel.height > high) continue;
+            // Legs close nothing.
+            if (!voxel.is_upright || !voxel.is_planar) continue;
             count += rectangle.distance(voxel.place.head<2>()) <= beside ? 1U : 0U;
         }
         const double cell = all_.reach / 2.0;
@@ -390,6 +417,35 @@ void draft_rest(const FurnitureVoxels& all, std::span<const std::uint32_t> clust
     }
 }
 
+/// Backs lean out behind a seat; what has none ends with its seat, and what lies farther out is of
+/// the wall or floor beside, where rays met both.
+void drop_beside_stools(const FurnitureVoxels& all, std::span<const LevelSlab> slabs,
+                        const SlabGroups& groups, std::vector<std::size_t>& group_of_voxel) {
+    constexpr double max_rise = 0.14;  // m: backs are higher
+    constexpr double few = 0.05;       // of the voxels
+    std::vector<std::size_t> count(groups.members.size(), 0);
+    std::vector<std::size_t> above(groups.members.size(), 0);
+    const auto seat_of = [&](std::size_t group) -> const LevelSlab& {
+        return slabs[groups.members[group].front()];
+    };
+    for (std::uint32_t i = 0; i < all.voxels.size(); ++i) {
+        const std::size_t group = group_of_voxel[i];
+        if (group == none) continue;
+        ++count[group];
+        const FurnitureVoxel& voxel = all.voxels[i];
+        above[group] += voxel.height > seat_of(group).height + max_rise + voxel.noise ? 1U : 0U;
+    }
+    for (std::uint32_t i = 0; i < all.voxels.size(); ++i) {
+        const std::size_t group = group_of_voxel[i];
+        if (group == none || use_of(seat_of(group)) != SlabUse::seat) continue;
+        const bool has_back =
+            static_cast<double>(above[group]) > few * static_cast<double>(count[group]);
+        const double outside = seat_of(group).rectangle.distance(all.voxels[i].place.head<2>());
+        if (!has_back && groups.members[group].size() == 1 && outside > beside)
+            group_of_voxel[i] = none;
+    }
+}
+
 }  // namespace
 
 SlabUse use_of(const LevelSlab& slab) {
@@ -443,6 +499,7 @@ std::vector<PieceDraft> draft_pieces(const FurnitureVoxels& all, std::span<const
         }
         draft_rest(all, cluster, is_rest, present, claims, group_of_voxel, rests);
     }
+    drop_beside_stools(all, slabs, groups, group_of_voxel);
     std::vector<PieceDraft> drafts(groups.members.size());
     for (std::size_t group = 0; group < drafts.size(); ++group)
         drafts[group].slabs = groups.members[group];

@@ -17,9 +17,9 @@ constexpr double wall_reach = 0.12;
 /// m: no cabinet is deeper.
 constexpr double max_hidden_depth = 0.7;
 
-/// Share of a side that upright surface closes, of the one that is closed most: the others may not
-/// have been seen. Legs stand at corners and rungs run low, so a side counts in columns, which are
-/// closed if most of their height is.
+/// Share of a side that flat upright surface closes, of the one that is closed most: the others may
+/// not have been seen. Legs are not flat, stand at corners, and rungs run low, so a side counts in
+/// columns, which are closed if most of their height is.
 double closed_share(const FurnitureVoxels& all, const PieceDraft& draft,
                     const PlanRectangle& rectangle, double below) {
     // m: worktops overhang by 20 to 40 mm, plinths are set back 50; of a stool it is no leg's
@@ -41,7 +41,8 @@ double closed_share(const FurnitureVoxels& all, const PieceDraft& draft,
     };
     for (const std::uint32_t i : draft.voxels) {
         const FurnitureVoxel& voxel = all.voxels[i];
-        if (!voxel.is_upright || voxel.height < lowest || voxel.height >= below) continue;
+        if (!voxel.is_upright || !voxel.is_planar || voxel.height < lowest || voxel.height >= below)
+            continue;
         const Eigen::Vector2d from_center = voxel.place.head<2>() - rectangle.center;
         const double u = from_center.dot(rectangle.axis);
         const double v = from_center.dot(rectangle.across());
@@ -152,6 +153,7 @@ PieceForm measure_form(const FurnitureVoxels& all, std::span<const LevelSlab> sl
     if (!draft.slabs.empty()) {
         const LevelSlab& main = slabs[draft.slabs.front()];
         form.seat = main.height;
+        form.seat_area = main.area;
         for (const std::size_t slab : draft.slabs)
             form.highest_slab = std::max(form.highest_slab, slabs[slab].height);
         form.closed = closed_share(all, draft, main.rectangle, main.height - 0.1);

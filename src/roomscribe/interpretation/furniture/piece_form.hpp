@@ -22,6 +22,7 @@ struct PieceForm {
     double level = 0.0;         ///< share of the voxels that are level
     double upright = 0.0;       ///< share of the voxels that are upright
     double seat = 0.0;          ///< m above the floor, of its main slab; 0 for none
+    double seat_area = 0.0;     ///< m2, of its main slab; 0 for none
     double highest_slab = 0.0;  ///< m above the floor; 0 for none
     double closed = 0.0;   ///< share of the sides below the main slab that upright surface closes
     double surface = 0.0;  ///< m2, of all voxels

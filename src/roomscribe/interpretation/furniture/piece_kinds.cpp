@@ -56,7 +56,7 @@ constexpr std::array<KindSizes, 16> sizes_by_level{{
     {"tv_unit", {0.30, 0.66}, any, {0.90, 2.80}, {0.28, 0.65}, any, true, 0.70},
     {"nightstand", {0.45, 0.66}, any, {0.30, 0.65}, {0.30, 0.60}, closed, true, 0.70},
     {"desk", {0.66, 0.85}, any, {1.00, 2.10}, {0.50, 0.85}, open, false, 0.85},
-    {"table", {0.66, 0.85}, any, {0.60, 3.70}, {0.50, 1.60}, any, false, 0.80},
+    {"table", {0.66, 0.85}, any, {0.60, 4.20}, {0.50, 1.60}, any, false, 0.80},
     {"counter", {0.85, 1.20}, any, {1.00, 6.00}, {0.40, 1.20}, open, false, 0.70},
     {"drawer_unit", {0.50, 1.20}, any, {0.40, 0.70}, {0.40, 0.80}, closed, false, 0.80},
     {"base_unit", {0.82, 0.98}, any, {1.80, 6.00}, {0.50, 0.90}, closed, false, 0.85},
@@ -104,6 +104,7 @@ struct Sizes {
     double width;
     double closed;
     bool is_at_wall;
+    double seat_share = 1.0;  ///< of the plan, that its main slab covers
 };
 
 /// The row that fits best; misses count as those of normal distributions.
@@ -120,16 +121,34 @@ PieceVerdict best_fit(std::span<const KindSizes> rows, const Sizes& sizes, std::
         add(std::max({row.below.low - sizes.closed, sizes.closed - row.below.high, 0.0}) /
             closed_spread);
         add(row.is_at_wall && !sizes.is_at_wall ? 1.0 : 0.0);
+        // The pot of a plant is no seat of what is upholstered.
+        constexpr double min_cushion = 0.25;
+        constexpr double cushion_spread = 0.1;
+        if (row.width.low >= 0.65 && row.level.high <= 0.6)
+            add(std::max(min_cushion - sizes.seat_share, 0.0) / cushion_spread);
         const double confidence = row.confidence * std::exp(-0.5 * misses);
         if (confidence > best.confidence) best = furniture(row.kind, rule, confidence);
     }
     return best;
 }
 
+/// m above the floor: radiators stand below sills.
+constexpr double max_radiator = 0.95;
+
+/// Shoe cabinets are 0.17 to 0.28 deep, higher than radiators and no wider than two doors.
+bool is_shoe_cabinet(const PieceForm& form) {
+    return form.is_at_wall && Range{0.15, 0.3 + form.blur}.holds(form.depth) &&
+           form.rectangle.width - form.blur <= 0.3 && form.bottom <= 0.35 &&
+           Range{max_radiator, 1.35}.holds(form.top) &&
+           Range{0.45, 1.3}.holds(form.rectangle.length) && form.upright >= 0.8 &&
+           form.face >= 0.6 * form.surface;
+}
+
 /// What stands close before a wall and is thin: no furniture.
 PieceVerdict judge_thin(const PieceForm& form) {
     const double height = form.top - form.bottom;
-    if (form.top <= 1.1 && form.bottom <= 0.35 && height >= 0.2 && form.rectangle.length >= 0.3)
+    if (form.top <= max_radiator && form.bottom <= 0.35 && height >= 0.2 &&
+        form.rectangle.length >= 0.3)
         return {false, "radiator", "thin low thing before a wall", {}, 0.7};
     if (form.top > 1.7 && form.bottom < 0.8)
         return {false, "curtain", "thin thing before a wall from its upper end down", {}, 0.5};
@@ -141,8 +160,10 @@ PieceVerdict judge_hanging(const PieceForm& form) {
     const PlanRectangle& size = form.rectangle;
     // Kitchens' wall units are 0.30 to 0.37 deep, more with a door open; a board for books 0.15 to
     // 0.3.
-    if (height >= 0.4 && size.length >= 0.38 && form.planar > 0.75 && form.upright >= 0.3 &&
-        form.face >= 0.12 && Range{0.2, 0.75}.holds(form.depth))
+    constexpr double max_unit = 1.25;  // m: what is taller is a column or a lining
+    if (height >= 0.4 && height - form.blur <= max_unit && size.length >= 0.3 &&
+        form.planar > 0.75 && form.upright >= 0.3 && form.face >= 0.12 &&
+        Range{0.2, 0.75}.holds(form.depth))
         return furniture("wall_unit", "box that hangs on a wall", 0.8);
     if (form.is_at_wall && form.depth >= 0.12 && height < 0.5 && form.level >= 0.3 &&
         Range{0.12, 0.4}.holds(size.width) && size.length >= 0.5)
@@ -171,6 +192,18 @@ double depth_of(const PieceForm& form) {
     return hidden_depth.holds(form.depth) ? form.depth : 0.5;
 }
 
+/// m: single doors of cupboards are 0.3 to 0.6 wide. So are sides of furniture, leaves that were
+/// seen in part, pilasters and ends of walls.
+constexpr double max_narrow_front = 0.65;
+
+/// A narrow front that is flat all over, of a cupboard's height, with the wall behind it.
+bool is_narrow_front(const PieceForm& form) {
+    constexpr double mostly = 0.8;
+    constexpr double min_area = 0.8;  // m2
+    return hidden_depth.holds(form.depth) && form.top <= 1.9 && form.face >= min_area &&
+           form.face >= mostly * form.surface;
+}
+
 /// Walls beyond doorways, leaves that stand open, layers that noise makes of walls, columns.
 bool is_of_building(const PieceForm& form) {
     const PlanRectangle& size = form.rectangle;
@@ -178,6 +211,9 @@ bool is_of_building(const PieceForm& form) {
     const bool is_low_front = form.blur <= 0.06 && form.top <= 1.9 && form.bottom <= 0.2 &&
                               size.length >= 0.5 && form.face >= 0.6 * form.surface;
     if (is_sheet(form) && !hidden_depth.holds(form.depth) && !is_low_front) return true;
+    if (is_sheet(form) && size.length <= max_narrow_front && !is_narrow_front(form)) return true;
+    // What is narrow stands at walls.
+    if (form.depth <= 0.0 && size.length < 0.6) return true;
     // DIN 18101: leaves are 1.985 and 2.11 high, and to 1.0 wide.
     if (is_sheet(form) && size.length <= 1.05 && Range{1.93, 2.15}.holds(form.top)) return true;
     if (form.depth == 0.0 && form.blur > 0.08 && size.length > 1.1) return true;
@@ -248,6 +284,17 @@ bool is_box_seen_above(const PieceForm& form) {
            form.planar >= 0.9 && form.upright >= 0.85;
 }
 
+/// A low shelf: open, shallower than a table, with its upper board all over it, deeper than
+/// radiators under their sills are.
+bool is_low_shelf(const PieceForm& form) {
+    const PlanRectangle& size = form.rectangle;
+    constexpr double min_share = 0.6;
+    return form.is_at_wall && form.bottom <= 0.3 && form.closed <= open.high &&
+           Range{0.6, min_tall}.holds(form.seat) && Range{0.5, 2.0}.holds(size.length) &&
+           Range{0.28, 0.47}.holds(size.width - form.blur) && form.face >= min_face &&
+           form.seat_area >= min_share * size.area();
+}
+
 PieceVerdict judge_standing(const PieceForm& form) {
     const bool has_level = form.num_slabs > 0;
     const bool has_bottom = form.bottom <= max_standing_bottom;
@@ -260,10 +307,11 @@ PieceVerdict judge_standing(const PieceForm& form) {
     // A screen on a low chest makes nothing tall of it.
     if (form.top >= min_tall + 0.05 && form.highest_slab > min_table_height)
         return judge_tall(form);
+    if (is_low_shelf(form)) return furniture("shelf", "low boards before a wall", 0.7);
     return best_fit(
         sizes_by_level,
         {form.seat, form.top - form.seat, form.rectangle.length, form.rectangle.width, form.closed,
-         form.is_at_wall},
+         form.is_at_wall, form.seat_area / std::max(form.rectangle.area(), 1e-9)},
         form.seat > min_table_height ? "top of a table's or chest's height" : "seat or low top");
 }
 
@@ -283,6 +331,7 @@ bool is_of_furniture_size(const PieceForm& form) {
 PieceVerdict judge_piece(const PieceForm& form) {
     constexpr std::size_t min_voxels = 30;  // of 4 cm: 0.05 m2 of surface
     if (form.num_voxels < min_voxels || is_bent(form)) return {};
+    if (is_shoe_cabinet(form)) return furniture("cabinet", "shallow box before a wall", 0.6);
     if (form.depth > 0.0 && form.depth <= max_thin_depth) return judge_thin(form);
     if (form.bottom >= min_hanging_bottom) return judge_hanging(form);
     const PieceVerdict verdict = judge_standing(form);

@@ -253,9 +253,10 @@ std::optional<SlabCut> cut_seats(const FurnitureVoxels& all,
                                  double voxel_size) {
     constexpr double min_seat = 0.3;
     constexpr double max_filled = 0.25;  // share of the seats' depth
+    constexpr double max_row = 4.0;      // seats
     const PlanRectangle& rectangle = slab.rectangle;
     if (slab.height > max_seat || rectangle.width > max_seat_width ||
-        rectangle.length < 2.0 * min_seat || rectangle.length > 2.0 * max_seat_width) {
+        rectangle.length < 2.0 * min_seat || rectangle.length > max_row * max_seat_width) {
         return std::nullopt;
     }
     const double bin = 1.5 * std::max(voxel_size, 0.5 * all.reach);
