@@ -53,20 +53,31 @@ bool FloorPlan::has_level_at(const Vector2d& place) const {
 
 std::optional<double> FloorPlan::ceiling_near(const Vector2d& place, int reach) const {
     const auto cell = cell_at(place);
-    if (!cell) return std::nullopt;
     float highest = std::numeric_limits<float>::quiet_NaN();
-    float lowest_slope = highest;
+    if (cell) {
+        for_each_neighbor(*cell, reach, [&](std::size_t other) {
+            if (!(highest >= ceiling_of_cell[other])) highest = ceiling_of_cell[other];
+        });
+    }
+    if (std::isnan(highest)) return std::nullopt;
+    return static_cast<double>(highest);
+}
+
+std::optional<double> FloorPlan::slope_near(const Vector2d& place, int reach) const {
+    const auto cell = cell_at(place);
+    if (!cell) return std::nullopt;
+    float lowest = std::numeric_limits<float>::quiet_NaN();
+    bool has_level_ceiling = false;
     for_each_neighbor(*cell, reach, [&](std::size_t other) {
         const float height = ceiling_of_cell[other];
-        if (is_under_slope[other]) {
-            if (!(lowest_slope <= height)) lowest_slope = height;
-        } else if (!(highest >= height)) {
-            highest = height;
+        if (!is_under_slope[other]) {
+            has_level_ceiling = has_level_ceiling || !std::isnan(height);
+        } else if (!(lowest <= height)) {
+            lowest = height;
         }
     });
-    const float found = std::isnan(highest) ? lowest_slope : highest;
-    if (std::isnan(found)) return std::nullopt;
-    return static_cast<double>(found);
+    if (has_level_ceiling || std::isnan(lowest)) return std::nullopt;
+    return static_cast<double>(lowest);
 }
 
 }  // namespace roomscribe

@@ -48,9 +48,10 @@ class FloorPlan {
     bool is_barrier_at(const Eigen::Vector2d& place) const;
     /// Whether floor or ceiling was seen there.
     bool has_level_at(const Eigen::Vector2d& place) const;
-    /// Height of the highest ceiling seen in the place's cell or within `reach` cells of it; under
-    /// a roof, where the slope is lowest.
+    /// Height of the highest ceiling seen in the place's cell or within `reach` cells of it.
     std::optional<double> ceiling_near(const Eigen::Vector2d& place, int reach) const;
+    /// Where the slope of a roof is lowest there; empty if some of the ceiling there is level.
+    std::optional<double> slope_near(const Eigen::Vector2d& place, int reach) const;
 
     /// Whether `test(place)` holds anywhere from `nearest` to `farthest` m from a place in a
     /// direction, a unit vector, looked at a cell's width at a time.

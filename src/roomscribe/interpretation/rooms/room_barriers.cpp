@@ -171,10 +171,14 @@ void BarrierDrawer::draw(const UprightSurface& surface) {
     for (std::size_t i = 0; i < count; ++i) {
         const double middle = static_cast<double>(i) + 0.5;
         const auto ceiling = plan_.ceiling_near(place_of(middle), ceiling_cells);
-        const double top = ceiling.value_or(0.0) - floor_height_;
-        const bool has_lintel =
-            ceiling &&
-            (slices[i] & slices_between(top - settings_.ceiling_reach, top + slice_height)) != 0;
+        const auto slope = plan_.slope_near(place_of(middle), ceiling_cells);
+        const auto reaches = [&](std::optional<double> height) {
+            const double top = height.value_or(0.0) - floor_height_;
+            return height && (slices[i] & slices_between(top - settings_.ceiling_reach,
+                                                         top + slice_height)) != 0;
+        };
+        // A knee wall; under the slope stand cupboards, too.
+        const bool has_lintel = reaches(ceiling) || (reaches(slope) && closes(middle));
         // Rays would tell what is behind.
         const double seen_top = slice_height * (num_slices - std::countl_zero(slices[i]));
         const bool is_alone = !sample_.sensor_positions.empty() ||

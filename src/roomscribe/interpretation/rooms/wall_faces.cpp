@@ -221,7 +221,9 @@ std::optional<double> FaceFinder::ceiling_over(const WallFace& face) const {
     std::size_t count = 0;
     for (double along = face.start; along <= face.end; along += step) {
         const Vector3d foot = face.plane.offset * face.plane.normal + along * face.along;
-        const auto height = plan_.ceiling_near((room_from_map_ * foot).head<2>(), ceiling_cells);
+        const Vector2d place = (room_from_map_ * foot).head<2>();
+        const auto slope = plan_.slope_near(place, ceiling_cells);
+        const auto height = slope ? slope : plan_.ceiling_near(place, ceiling_cells);
         if (height) heights.push_back(*height);
         ++count;
     }
