@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "roomscribe/interpretation/openings/flat_doors.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <functional>
 
 #include <gtest/gtest.h>
@@ -134,10 +136,48 @@ TEST(FlatDoors, AreNotTheBackOfAShelf) {
         wall_with([](double x, double z) { return x > 1.5 && x < 2.4 && z < 2.0 ? 0.03 : 0.0; });
     for (int row = 0; row < 40; ++row) {
         for (int column = 30; column < 48; ++column) {
-            if ((row + column) % 2 == 0) relief.cells[relief.index(column, row)].hidden = 8;
+            if ((row + column) % 2 == 0) relief.cells[relief.index(column, row)].standing = 8;
         }
     }
     EXPECT_TRUE(find_flat_doors(relief).empty());
+}
+
+/// A corridor's far scans look along the wall and end before it, a door is clear all the same.
+TEST(FlatDoors, MayHaveRaysThatEndFarBeforeThem) {
+    WallRelief wall = wall_with([](double x, double z) { return proud_door(x, z, 1.5, 2.4); });
+    for (ReliefCell& cell : wall.cells)
+        cell.hidden = 8;
+    only_door(wall, 1.5, 2.4);
+}
+
+/// Far away only each third line is seen.
+TEST(FlatDoors, AreSeenAsWellAsTheWallNearby) {
+    WallRelief wall = wall_with([](double x, double z) { return cased_door(x, z, 2.7, 3.6); });
+    for (int row = 0; row < wall.num_rows; ++row) {
+        for (int column = 30; column < wall.num_columns; ++column) {
+            if (row % 3 != 0) wall.cells[wall.index(column, row)] = {};
+        }
+    }
+    only_door(wall, 2.7, 3.6);
+}
+
+/// A leaf 4 mm before the wall, with a lever of 12 cm that fills a fifth of its cells.
+double leaf_with(double x, double z, double lever_height) {
+    if (x > 1.65 && x < 1.77 && std::abs(z - lever_height) < 0.05) return 0.014;
+    return x > 1.5 && x < 2.4 && z < 2.0 ? 0.004 : 0.0;
+}
+
+TEST(FlatDoors, NeedHalfTheStepWhereTheyHaveALever) {
+    only_door(wall_with([](double x, double z) { return leaf_with(x, z, 1.05); }), 1.5, 2.4);
+    const auto at_knees = [](double x, double z) { return leaf_with(x, z, 0.5); };
+    EXPECT_TRUE(find_flat_doors(wall_with(at_knees)).empty());
+    const auto without = [](double x, double z) { return std::min(leaf_with(x, z, 1.05), 0.004); };
+    EXPECT_TRUE(find_flat_doors(wall_with(without)).empty());
+    const auto rough = [](double x, double z) {
+        const bool is_bump = x > 1.9 && x < 2.1 && z > 1.3 && z < 1.7;
+        return leaf_with(x, z, 1.05) + (is_bump ? 0.012 : 0.0);
+    };
+    EXPECT_TRUE(find_flat_doors(wall_with(rough)).empty());
 }
 
 /// A board ends above the desk that hides what is below; without rays nobody knows what does.

@@ -66,6 +66,22 @@ TEST(WallRelief, TellsWhereRaysEnded) {
     EXPECT_EQ(relief.depths[relief.index(15, 5) * num_depth_bins + bin], 1U);
 }
 
+/// A shelf's things are before what a scanner looks at straight, not where its rays aimed at.
+TEST(WallRelief, TellsWhatStandsStraightBeforeIt) {
+    const Vector3d sensor(3.0, 0.5, 1.2);
+    ScanMap map;
+    add_ray(map, sensor, 2.5, 1.2, 0.6);  // ends before 2.1
+    add_ray(map, sensor, 2.5, 1.2, 1.5);  // farther than furniture is deep
+    map.sections.push_back({"scan", 0, 2, sensor});
+    const WallRelief relief = measure(map);
+    EXPECT_EQ(relief.at(25, 12).hidden + relief.at(24, 12).hidden, 2U);
+    std::uint32_t num_standing = 0;
+    for (const ReliefCell& cell : relief.cells)
+        num_standing += cell.standing;
+    EXPECT_EQ(num_standing, 1U);
+    EXPECT_EQ(relief.at(21, 12).standing + relief.at(20, 12).standing, 1U);
+}
+
 TEST(WallRelief, HearsNoScannerBehindTheWall) {
     ScanMap map;
     add_ray(map, Vector3d(3.0, 2.0, 1.2), 0.55, 0.55, -3.0);
@@ -185,6 +201,26 @@ TEST(WallHoles, AreOneWhereSomethingStandsBeforeThem) {
     EXPECT_EQ(holes[0].low, 6);
     EXPECT_EQ(holes[0].high, 20);
     EXPECT_EQ(find_wall_holes(hole_with(with_band(-1.0))).size(), 2U);  // wall between them
+}
+
+TEST(WallHoles, AreFlushPanesWithoutAFrameInThem) {
+    const auto pane_with = [](double frame) {
+        WallRelief relief = hole_with([=](double x, double z) {
+            const bool is_rim = x < 0.2 || x > 0.8 || z < 0.2 || z > 1.2;
+            return is_rim ? frame : 0.0;
+        });
+        for (int row = 6; row < 20; ++row) {
+            for (int column = 15; column < 25; ++column) {
+                ReliefCell& cell = relief.cells[relief.index(column, row)];
+                if (cell.recess == 0) cell.through = 4;
+            }
+        }
+        const std::vector<CellRectangle> holes = find_wall_holes(relief);
+        EXPECT_EQ(holes.size(), 1U);
+        return look_into(relief, holes.at(0));
+    };
+    EXPECT_TRUE(is_flush_pane(pane_with(0.0)));
+    EXPECT_FALSE(is_flush_pane(pane_with(0.1)));
 }
 
 TEST(WallHoles, TellAFrameFromTheSidesOfANiche) {

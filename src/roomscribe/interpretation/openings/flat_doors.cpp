@@ -26,13 +26,13 @@ class FlatDoorSearch {
                     const double mean = static_cast<double>(cell.height) / cell.near;
                     // Levers stand out, and what hangs on the wall.
                     if (mean <= max_height) sum = {1.0, mean, mean * mean, 0.0};
-                    if (cell.hidden > cell.near) sum.covered = sum.count;
+                    if (cell.standing > cell.near) sum.covered = sum.count;
                 }
                 at(column + 1, row + 1) =
                     sum + at(column, row + 1) + at(column + 1, row) - at(column, row);
             }
         }
-        usual_share_ = usual_share();
+        measure_usual_shares();
     }
 
     std::vector<FlatDoor> run() const {
@@ -85,6 +85,17 @@ class FlatDoorSearch {
     /// Of the cells of a leaf, those before which something stands: doors are kept clear, and the
     /// back of a shelf has the shelf before it.
     static constexpr double max_covered = 0.25;
+    /// m to either side, within which a wall is seen about as well.
+    static constexpr double usual_reach = 1.0;
+    /// Of the least step, what a leaf with a lever must show: no wall has one.
+    static constexpr double least_with_lever = 0.5;
+    /// m. Levers stand out 4 to 6 cm and are 2 cm thick: the mean of a cell that holds one.
+    static constexpr double least_lever_height = 0.008;
+    /// m above the floor (DIN 18040 asks for 0.85, usual is 1.05), and from the leaf's edge
+    /// (backset of 55 to 65 mm, and a lever 12 to 14 cm long).
+    static constexpr double lowest_lever = 0.8;
+    static constexpr double highest_lever = 1.2;
+    static constexpr double lever_reach = 0.25;
     /// Of a step, by how much the leaf itself may bend.
     static constexpr double max_bend = 0.4;
 
@@ -92,7 +103,7 @@ class FlatDoorSearch {
         double count = 0.0;
         double heights = 0.0;
         double squares = 0.0;
-        double covered = 0.0;  ///< cells that most rays aimed at ended before
+        double covered = 0.0;  ///< cells straight before which more was seen than on them
 
         Sum operator+(const Sum& other) const {
             return {count + other.count, heights + other.heights, squares + other.squares,
@@ -125,8 +136,8 @@ class FlatDoorSearch {
         return at(right, high) - at(left, high) - at(right, low) + at(left, low);
     }
     /// Share of the cells of a column that rays were aimed at, up to a door's height, where they
-    /// are most: the lines of some scanners are far apart.
-    double usual_share() const {
+    /// are most nearby: the lines of some scanners are far apart, the more so far away.
+    void measure_usual_shares() {
         const int high = std::min(cells(min_leaf_height), relief_.num_rows);
         std::vector<double> shares;
         for (int column = 0; column < relief_.num_columns; ++column) {
@@ -137,16 +148,25 @@ class FlatDoorSearch {
             }
             shares.push_back(static_cast<double>(aimed_at) / high);
         }
-        return quantile(shares, 0.75);
+        const int reach = cells(usual_reach);
+        for (int column = 0; column < relief_.num_columns; ++column) {
+            const int end = std::min(relief_.num_columns, column + reach + 1);
+            std::vector<double> nearby(shares.begin() + std::max(0, column - reach),
+                                       shares.begin() + end);
+            usual_shares_.push_back(quantile(nearby, 0.75));
+        }
+    }
+    double usual_share(int left, int right) const {
+        return usual_shares_[static_cast<std::size_t>((left + right) / 2)];
     }
     /// Of columns [left, right) and rows [low, high), if more than half as much of it was seen as
-    /// is usual.
+    /// is usual there.
     std::optional<Sum> strip(int left, int right, int low, int high) const {
         if (left < 0 || low < 0 || right > relief_.num_columns || high > relief_.num_rows)
             return std::nullopt;
         if (right <= left || high <= low) return std::nullopt;
         const Sum sum = sum_of(left, right, low, high);
-        const double usual = usual_share_ * (right - left) * (high - low);
+        const double usual = usual_share(left, right) * (right - left) * (high - low);
         if (sum.count < 0.5 * usual || sum.count < 4.0) return std::nullopt;
         return sum;
     }
@@ -200,7 +220,8 @@ class FlatDoorSearch {
         const int high = std::min(relief_.num_rows, door.high + cells(0.25));
         if (high <= door.high) return true;
         return sum_of(door.left, door.right, door.high, high).count <
-               0.1 * usual_share_ * (door.right - door.left) * (high - door.high);
+               0.1 * usual_share(door.left, door.right) * (door.right - door.left) *
+                   (high - door.high);
     }
 
     /// Whether all of a leaf lies `height` before the wall: boards and pictures hang above the
@@ -291,6 +312,37 @@ class FlatDoorSearch {
         return needs_casing ? cased : std::max(lower, cased);
     }
 
+    double contrast_of(const CellRectangle& door, const Sum& leaf, const std::array<Side, 3>& sides,
+                       double least) const {
+        return std::max(proud_contrast(door, leaf, sides, least),
+                        recessed_contrast(door, leaf, sides, least));
+    }
+
+    /// Whether what stands out of a leaf is as small as a lever, beside one edge, at a lever's
+    /// height. Noise stands out anywhere.
+    bool has_lever(const CellRectangle& door, const Sum& leaf) const {
+        constexpr int min_cells = 2;
+        constexpr double max_elsewhere = 0.3;
+        const double level = leaf.mean() + least_lever_height;
+        const int reach = cells(lever_reach);
+        int num_left = 0;
+        int num_right = 0;
+        int num_all = 0;
+        for (int row = cells(0.15); row < door.high - 1; ++row) {
+            const double above_floor = (row + 0.5) * relief_.cell_size;
+            const bool is_at_height = above_floor >= lowest_lever && above_floor <= highest_lever;
+            for (int column = door.left + 1; column < door.right - 1; ++column) {
+                const ReliefCell& cell = relief_.at(column, row);
+                if (cell.near == 0 || cell.height < level * cell.near) continue;
+                ++num_all;
+                num_left += is_at_height && column < door.left + reach ? 1 : 0;
+                num_right += is_at_height && column >= door.right - reach ? 1 : 0;
+            }
+        }
+        const int num_lever = std::max(num_left, num_right);
+        return num_lever >= min_cells && num_all - num_lever <= max_elsewhere * num_lever;
+    }
+
     double width_of(const CellRectangle& door) const {
         return (door.right - door.left) * relief_.cell_size;
     }
@@ -302,8 +354,11 @@ class FlatDoorSearch {
         const std::array<Side, 3> sides = sides_of(door);
         const double least =
             least_wall_step + min_step_per_metre * std::max(0.0, width_of(door) - 1.0);
-        const double contrast = std::max(proud_contrast(door, *leaf, sides, least),
-                                         recessed_contrast(door, *leaf, sides, least));
+        double contrast = contrast_of(door, *leaf, sides, least);
+        if (contrast < 1.0) {
+            contrast = contrast_of(door, *leaf, sides, least_with_lever * least);
+            if (contrast >= 1.0 && !has_lever(door, *leaf)) return std::nullopt;
+        }
         if (contrast < 1.0) return std::nullopt;
         const bool is_top_seen = sides[2].leaf && sides[2].wall;
         double height = 0.0;
@@ -318,7 +373,7 @@ class FlatDoorSearch {
 
     const WallRelief& relief_;
     std::vector<Sum> sums_;
-    double usual_share_ = 1.0;
+    std::vector<double> usual_shares_;  ///< by column
 };
 
 }  // namespace

@@ -20,8 +20,9 @@ struct FlatDoor {
 /// that stands out. Two leaves need the casing, and so does one above which the wall shows only in
 /// part; where nothing was seen above, as by scanners that look up by few degrees, both sides are
 /// enough. Or they stand before the wall, up to 45 mm, on both sides and above, evenly from the
-/// floor on and with little before them, as rebated leaves do where they open to. A corner closely
-/// beside a leaf may hide one side. The clearest first; no two share a column.
+/// floor on and with little before them, as rebated leaves do where they open to. A leaf with a
+/// lever needs half the step. A corner closely beside a leaf may hide one side. The clearest first;
+/// no two share a column.
 std::vector<FlatDoor> find_flat_doors(const WallRelief& relief);
 
 }  // namespace roomscribe

@@ -429,6 +429,15 @@ bool is_framed_by_wall(const HoleEvidence& evidence, bool stands_on_floor) {
     return num_walls >= (stands_on_floor ? 2 : 3);
 }
 
+bool is_flush_pane(const HoleEvidence& evidence) {
+    constexpr double min_rim = 0.9;
+    constexpr double min_seen_through = 0.5;
+    for (const HoleSide side : {HoleSide::left, HoleSide::right, HoleSide::bottom}) {
+        if (evidence.rim_of(side).value_or(0.0) < min_rim) return false;
+    }
+    return evidence.framed < min_framed && evidence.through_share >= min_seen_through;
+}
+
 WallRectangle measure_edges(const WallRelief& relief, const CellRectangle& hole) {
     const auto open_share = [&](int left, int right, int low, int high) {
         double open = 0.0;

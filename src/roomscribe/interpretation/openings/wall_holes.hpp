@@ -66,6 +66,13 @@ HoleEvidence look_into(const WallRelief& relief, const CellRectangle& hole);
 /// Whether wall was seen on three sides, or two of a hole on the floor, and nothing else on any.
 bool is_framed_by_wall(const HoleEvidence& evidence, bool stands_on_floor);
 
+/// Least share `framed` of windows.
+inline constexpr double min_framed = 0.25;
+
+/// Whether stiles and a bottom rail in the plane of the wall hold a pane that lies there as well:
+/// of a window, frame and reveals show in the hole.
+bool is_flush_pane(const HoleEvidence& evidence);
+
 /// The hole's edges to a fraction of a cell: of the cells on either side of an edge, as much
 /// belongs to the wall as rays ended on it there.
 WallRectangle measure_edges(const WallRelief& relief, const CellRectangle& hole);

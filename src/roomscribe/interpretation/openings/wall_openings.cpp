@@ -127,7 +127,7 @@ void make_glazed_door(double floor_height, WallOpening& opening) {
     opening.hole = opening.hole.grown(usual_rail, 0.0, usual_rail);
     opening.hole.bottom = floor_height;
     opening.frame_width = casing_width;
-    opening.rule = "pane of a door's height in the wall, indoors behind it";
+    opening.rule = "pane of a door's height between rails in the plane of the wall";
     opening.is_pane = true;
     opening.depth = 0.02;
     opening.confidence = 0.7;
@@ -323,7 +323,6 @@ bool OpeningFinder::judge_window(const HoleEvidence& evidence, const HoleSigns& 
                            (relief.has_rays && evidence.through_share >= min_through);
     // A mirror shows what lies behind it without a frame in the wall, and as often as not where
     // another room is; but never the ground outdoors, and nothing where no ray passes.
-    constexpr double min_framed = 0.25;
     const bool may_be_mirror = !signs.shows_outdoors && evidence.through_share >= min_through;
     if (!signs.is_guess && !signs.shows_outdoors && evidence.framed < min_framed) return false;
     const StoreyLayout& rooms = layout(opening.storey);
@@ -376,7 +375,8 @@ std::optional<WallOpening> OpeningFinder::judge(std::size_t storey, std::size_t 
     if (signs.above_floor <= max_rail && hole.height() >= min_glazing_height &&
         hole.top + usual_rail <= rooms.floor_height + max_door_height &&
         hole.width() >= min_glazing_width && hole.width() <= max_leaf_width &&
-        !signs.shows_outdoors && is_indoors_behind(rooms, face, hole)) {
+        ((!signs.shows_outdoors && is_indoors_behind(rooms, face, hole)) ||
+         (is_flush_pane(evidence) && !is_mirror(face, hole)))) {
         make_glazed_door(rooms.floor_height, opening);
         return opening;
     }
@@ -414,12 +414,11 @@ void OpeningFinder::add_flat_doors(std::size_t storey, std::size_t number, const
     }
 }
 
-/// The panes of a double door are side by side.
+/// The panes of a double door are side by side. Of one the top may not have been seen.
 void join_panes(std::vector<WallOpening>& openings) {
     constexpr double slack = 0.1;
     const auto are_leaves = [](const WallOpening& a, const WallOpening& b) {
-        return a.is_pane && b.is_pane && std::abs(a.hole.end - b.hole.start) <= slack &&
-               std::abs(a.hole.top - b.hole.top) <= slack;
+        return a.is_pane && b.is_pane && std::abs(a.hole.end - b.hole.start) <= slack;
     };
     for (std::size_t i = 0; i < openings.size(); ++i) {
         const auto other = std::find_if(openings.begin(), openings.end(), [&](const auto& next) {
@@ -428,6 +427,7 @@ void join_panes(std::vector<WallOpening>& openings) {
         });
         if (other == openings.end()) continue;
         openings[i].hole.end = other->hole.end;
+        openings[i].hole.top = std::max(openings[i].hole.top, other->hole.top);
         openings[i].is_pane = false;
         const bool is_before = other - openings.begin() < static_cast<std::ptrdiff_t>(i);
         openings.erase(other);

@@ -72,6 +72,8 @@ void follow_rays(WallRelief& relief, const FaceFrame& frame, std::span<const Vec
     if (eye.z() <= 2.0F * tolerance) return;
     for (std::size_t i = 0; i < points.size(); i += stride) {
         const Vector3f point = frame(points[i]);
+        if (point.z() > max_relief && point.z() <= static_cast<float>(furniture_depth))
+            count(relief, point.x(), point.y(), &ReliefCell::standing);
         if (std::abs(point.z()) <= tolerance) {
             count(relief, point.x(), point.y(), &ReliefCell::surface, point.z());
             continue;

@@ -19,6 +19,7 @@ struct ReliefCell {
     std::uint32_t through = 0;   ///< farther behind it: the ray went through the wall
     std::uint32_t outdoors = 0;  ///< of `through`: below the floor, or far away
     std::uint32_t hidden = 0;    ///< before it: what lies behind was not seen
+    std::uint32_t standing = 0;  ///< straight before it, no farther than furniture_depth
 
     std::uint32_t near = 0;  ///< close to the face, before or behind it (near_depth)
     float height = 0.0F;     ///< m, sum over `near` of how far before the face they lie
@@ -31,6 +32,8 @@ struct ReliefCell {
 inline constexpr double max_wall_depth = 0.45;
 /// m behind the face. Leaves lie to 12 cm deep (docs/interpretation.md); their noise.
 inline constexpr double near_depth = 0.15;
+/// m before the face. Shelves and wardrobes that stand at a wall are to 65 cm deep.
+inline constexpr double furniture_depth = 0.65;
 inline constexpr int num_depth_bins = 36;
 inline constexpr double depth_bin = max_wall_depth / num_depth_bins;
 
