@@ -191,6 +191,68 @@ double slanted_share(const SurfaceSample& sample, const Eigen::Vector3d& axis) {
     return static_cast<double>(slanted) / static_cast<double>(std::max<std::size_t>(total, 1));
 }
 
+/// A slanted patch, with its upper side's normal.
+struct Slope {
+    Eigen::Vector3d normal;
+    double bottom;
+    double top;
+    std::size_t size;
+};
+
+std::vector<Slope> find_slopes(const SurfaceSample& sample, std::span<const PlanarPatch> patches,
+                               const Eigen::Vector3d& axis) {
+    constexpr double max_roof_slope = radians(60.0);
+    const auto direction = axis.cast<float>();
+    std::vector<Slope> slopes;
+    for (const PlanarPatch& patch : patches) {
+        const double cosine = patch.plane.normal.dot(axis);
+        if (std::abs(cosine) >= std::cos(level_angle)) continue;
+        if (std::abs(cosine) <= std::cos(max_roof_slope)) continue;
+        std::vector<float> heights;
+        for (const std::uint32_t point : patch.points)
+            heights.push_back(sample.cloud.positions[point].dot(Eigen::Vector3f(direction)));
+        const Eigen::Vector3d normal = cosine < 0.0 ? -patch.plane.normal : patch.plane.normal;
+        slopes.push_back({normal, static_cast<double>(quantile(heights, 0.01)),
+                          static_cast<double>(quantile(heights, 0.99)), patch.points.size()});
+    }
+    return slopes;
+}
+
+/// Share of the surface in those slopes of `has_place` that have one of equal pitch on the other
+/// side: roofs have two. A single slanted wall is none, along whichever axis it is looked at.
+template <typename HasPlace>
+double paired_share(std::span<const Slope> slopes, const Eigen::Vector3d& axis,
+                    std::size_t num_voxels, HasPlace&& has_place) {
+    const double cosine = std::cos(level_angle);
+    std::size_t paired = 0;
+    for (const Slope& slope : slopes) {
+        if (!has_place(slope)) continue;
+        const Eigen::Vector3d opposite = 2.0 * slope.normal.dot(axis) * axis - slope.normal;
+        const bool has_pair = std::any_of(slopes.begin(), slopes.end(), [&](const Slope& other) {
+            return has_place(other) && other.normal.dot(opposite) >= cosine;
+        });
+        paired += has_pair ? slope.size : 0;
+    }
+    return static_cast<double>(paired) / static_cast<double>(std::max<std::size_t>(num_voxels, 1));
+}
+
+/// Roofs begin at a knee wall and end at the level part
+/// of the ceiling, or at the ridge.
+void find_roofs(AxisProfile& profile, const SurfaceSample& sample,
+                std::span<const PlanarPatch> patches, const Eigen::Vector3d& axis) {
+    constexpr double min_knee_height = 0.4;
+    constexpr double max_gap = 0.3;
+    const std::vector<Slope> slopes = find_slopes(sample, patches, axis);
+    profile.roof_above = paired_share(slopes, axis, sample.cloud.size(), [&](const Slope& slope) {
+        return slope.top >= profile.ceiling() - max_gap &&
+               slope.bottom >= profile.floor() + min_knee_height;
+    });
+    profile.roof_below = paired_share(slopes, axis, sample.cloud.size(), [&](const Slope& slope) {
+        return slope.bottom <= profile.floor() + max_gap &&
+               slope.top <= profile.ceiling() - min_knee_height;
+    });
+}
+
 }  // namespace
 
 double level_area(const AxisProfile& profile, double height) {
@@ -222,6 +284,7 @@ void reverse(AxisProfile& profile) {
     for (float& height : profile.planar_heights)
         height = -height;
     std::swap(profile.clutter_below, profile.clutter_above);
+    std::swap(profile.roof_below, profile.roof_above);
 }
 
 std::vector<Eigen::Vector3f> find_clutter(const SurfaceSample& sample,
@@ -273,6 +336,7 @@ AxisProfile profile_along(const Eigen::Vector3d& axis, const SurfaceSample& samp
     find_low_level(profile);
     reverse(profile);
     count_clutter(profile, sample, patches, clutter, axis);
+    find_roofs(profile, sample, patches, axis);
     return profile;
 }
 

@@ -49,6 +49,10 @@ struct AxisProfile {
     std::vector<WallPatch> walls;     ///< those along it
     /// Share of the surface whose normal is neither along nor across the axis.
     double slanted_share = 0.0;
+    /// Of the surface, in slopes that face each other and meet the high or the low level, as those
+    /// of a roof meet the ceiling or the ridge.
+    double roof_above = 0.0;
+    double roof_below = 0.0;
     double area = 0.0;  ///< of the patches across
     std::optional<double> low;
     std::optional<double> high;

@@ -164,8 +164,9 @@ UprightCandidate judge(const Eigen::Vector3d& up, const AxisProfile& profile, do
         candidate.score += evidence_weights[static_cast<std::size_t>(which)] * value;
     };
     // Less than a twentieth of slanted surface on every axis says nothing.
+    const double slanted = std::max(0.0, profile.slanted_share - profile.roof_above);
     set(UprightEvidence::few_slanted_surfaces,
-        (worst_slanted - profile.slanted_share) / std::max(worst_slanted, 0.05));
+        (worst_slanted - slanted) / std::max(worst_slanted, 0.05));
     set(UprightEvidence::few_levels, few_levels(profile));
     set(UprightEvidence::room_height, room_height(profile));
     set(UprightEvidence::furniture_height, furniture_height(profile));

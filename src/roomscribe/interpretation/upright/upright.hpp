@@ -23,7 +23,8 @@ namespace roomscribe {
 enum class UprightEvidence : std::uint8_t {
     /// Furniture may be turned about the plumb line but stays level: the share of planar area that
     /// is
-    /// neither parallel nor perpendicular to the axis, against that of the worst axis.
+    /// neither parallel nor perpendicular to the axis, nor a roof's over it, against that of the
+    /// worst axis.
     few_slanted_surfaces,
     /// Floors and ceilings lie at few heights, walls at many distances: the share of the area
     /// across
