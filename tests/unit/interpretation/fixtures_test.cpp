@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
@@ -199,6 +200,38 @@ TEST(FindFixtures, DropsWhatIsTooThickForTheGripper) {
     scan.add_bar(0.1, 0.5, 0.4, 0.5, 0.05);
     scan.add_front();
     EXPECT_TRUE(find(scan).empty());
+}
+
+/// 90 mm long, 36 mm high, 25 mm off the front.
+FrontScan front_with_cup_pull() {
+    FrontScan scan(0.002);
+    scan.add_bar(0.255, 0.345, 0.652, 0.688, 0.025);
+    scan.add_front();
+    return scan;
+}
+
+TEST(FindFixtures, FindsTheCupPullOfADrawer) {
+    const std::vector<Fixture> fixtures = find(front_with_cup_pull());
+    ASSERT_EQ(fixtures.size(), 1U);
+    const Component& pull = fixtures[0].component;
+    EXPECT_EQ(pull.kind, "bar_handle");
+    EXPECT_LT((pull.box->center - Vector3d(0.0125, 0.3, 0.67)).norm(), 0.005);
+}
+
+TEST(FindFixtures, FindsNoCupPullsOnLeaves) {
+    MountingFace leaf = front();
+    leaf.is_leaf = true;
+    EXPECT_TRUE(find(front_with_cup_pull(), leaf).empty());
+}
+
+TEST(FindFixtures, TakesNoPlateForACupPull) {
+    // Upright, or too high for fingers.
+    for (const auto& [width, height] : {std::pair{0.036, 0.09}, std::pair{0.09, 0.07}}) {
+        FrontScan scan(0.002);
+        scan.add_bar(0.25, 0.25 + width, 0.4, 0.4 + height, 0.025);
+        scan.add_front();
+        EXPECT_TRUE(find(scan).empty());
+    }
 }
 
 TEST(FindFixtures, DropsWhatReachesOverTheEdgeOfTheFront) {
