@@ -111,7 +111,7 @@ std::vector<std::optional<Transform>> read_poses(const std::filesystem::path& pa
             reader.fail_at_line(fmt::format("{} numbers are no pose", row.size()), cure);
         }
         if (row_length == 8) {
-            poses.push_back(tum_pose(reader, row));
+            poses.emplace_back(tum_pose(reader, row));
             continue;
         }
         matrix.insert(matrix.end(), row.begin(), row.end());

@@ -266,6 +266,7 @@ std::vector<Cell> cut_into_cells(const std::vector<RingPoint>& points) {
         cells[{cell.x(), cell.y(), cell.z()}].push_back(point);
     }
     std::vector<Cell> result;
+    result.reserve(cells.size());
     for (auto& [place, members] : cells)
         result.push_back(std::move(members));
     return result;

@@ -137,7 +137,7 @@ class UpholsteryTest {
         for (const std::uint32_t i : cluster) {
             if (all_.voxels[i].is_level &&
                 std::abs(all_.voxels[i].height - largest->height) <= cushion_step)
-                seat.push_back(all_.voxels[i].place.head<2>());
+                seat.emplace_back(all_.voxels[i].place.head<2>());
         }
         if (has_gap(seat, whole)) return false;
         return (is_sofa || is_bed) && is_closed_below(whole, *largest);
