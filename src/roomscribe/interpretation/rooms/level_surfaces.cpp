@@ -7,6 +7,7 @@
 
 #include "roomscribe/core/quantile.hpp"
 #include "roomscribe/core/units.hpp"
+#include "roomscribe/interpretation/upright/axis_profile.hpp"
 
 namespace roomscribe {
 namespace {
@@ -21,10 +22,8 @@ constexpr double min_level_area = 0.5;
 /// Podiums, ramps and thresholds lie lower than seats (0.4 m and more).
 constexpr double max_step = 0.35;
 /// Ceilings under a roof slope by up to this much; steeper, it is a wall, unless it begins above a
-/// knee wall: roofs of dwellings rise by up to 60 degrees.
+/// knee wall.
 constexpr double max_ceiling_slope = radians(45.0);
-constexpr double max_roof_slope = radians(60.0);
-constexpr double min_knee_height = 0.4;
 /// Storeys are no higher (building practice); above, it is a roof seen from outside.
 constexpr double max_room_height = 5.0;
 /// Slabs are thicker.

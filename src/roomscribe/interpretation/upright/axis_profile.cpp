@@ -191,7 +191,7 @@ double slanted_share(const SurfaceSample& sample, const Eigen::Vector3d& axis) {
     return static_cast<double>(slanted) / static_cast<double>(std::max<std::size_t>(total, 1));
 }
 
-/// A slanted patch, with its upper side's normal.
+/// A slanted patch; the normal is that of the side that looks along the axis.
 struct Slope {
     Eigen::Vector3d normal;
     double bottom;
@@ -201,7 +201,6 @@ struct Slope {
 
 std::vector<Slope> find_slopes(const SurfaceSample& sample, std::span<const PlanarPatch> patches,
                                const Eigen::Vector3d& axis) {
-    constexpr double max_roof_slope = radians(60.0);
     const auto direction = axis.cast<float>();
     std::vector<Slope> slopes;
     for (const PlanarPatch& patch : patches) {
@@ -236,11 +235,9 @@ double paired_share(std::span<const Slope> slopes, const Eigen::Vector3d& axis,
     return static_cast<double>(paired) / static_cast<double>(std::max<std::size_t>(num_voxels, 1));
 }
 
-/// Roofs begin at a knee wall and end at the level part
-/// of the ceiling, or at the ridge.
+/// Roofs begin at a knee wall and end at the level part of the ceiling, or at the ridge.
 void find_roofs(AxisProfile& profile, const SurfaceSample& sample,
                 std::span<const PlanarPatch> patches, const Eigen::Vector3d& axis) {
-    constexpr double min_knee_height = 0.4;
     constexpr double max_gap = 0.3;
     const std::vector<Slope> slopes = find_slopes(sample, patches, axis);
     profile.roof_above = paired_share(slopes, axis, sample.cloud.size(), [&](const Slope& slope) {

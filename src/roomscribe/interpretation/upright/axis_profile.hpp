@@ -25,6 +25,11 @@ inline constexpr double level_share = 0.1;
 /// m. Storeys are at least so high (building practice).
 inline constexpr double min_storey_height = 2.0;
 
+/// Roofs of dwellings rise by up to this much, from knee walls of at least this height (m): what is
+/// steeper, or begins lower, is a wall that leans.
+inline constexpr double max_roof_slope = radians(60.0);
+inline constexpr double min_knee_height = 0.4;
+
 /// A patch across the axis.
 struct LevelPatch {
     double height;
