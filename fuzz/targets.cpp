@@ -259,6 +259,17 @@ Seeds scene_seeds() {
     return {scene_to_json(scene)};
 }
 
+Seeds correction_seeds() {
+    const std::string door = R"({"label":"door","polygon":[[0,0,0],[1,0,0],[1,0,2]]})";
+    const std::string piece =
+        R"({"label":"furniture","box":{"center":[0,0,1],"axes":[[1,0,0],[0,1,0],[0,0,1]],"size":[1,1,2]}})";
+    return {R"({"format":"roomscribe-corrections","version":1,"corrections":[)"
+            R"({"action":"pin","element":)" +
+            door + R"(},{"action":"reject","element":)" + piece +
+            R"(},{"action":"relabel","label":"window","kind":"french_window","element":)" + door +
+            R"(},{"action":"set_size","size":[0.9,2.05],"element":)" + door + "}]}"};
+}
+
 Seeds bag_seeds() {
     const test::BagTopic laser =
         test::laser_topic({test::laser_message(1.0, "laser", {1.0F, 2.0F}),
@@ -304,6 +315,9 @@ constexpr Target all_targets[] = {
      [] { return Seeds{"1 2 3\n4 5 6\n"}; }},
     {"scene", [](Bytes bytes) { read_text(bytes, [](auto text) { scene_from_json(text); }); },
      scene_seeds},
+    {"corrections",
+     [](Bytes bytes) { read_text(bytes, [](auto text) { corrections_from_json(text); }); },
+     correction_seeds},
     {"registration",
      [](Bytes bytes) { read_text(bytes, [](auto text) { registration_from_json(text); }); },
      registration_seeds},

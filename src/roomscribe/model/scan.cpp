@@ -80,6 +80,7 @@ void append_scan(Scan scan, const std::optional<Transform>& map_from_scan, ScanM
     if (map_from_scan) {
         section.sensor_position = *map_from_scan * scan.sensor_position();
         section.sensor_axes = map_from_scan->linear() * scan.sensor_axes();
+        section.sensor_is_assumed = !cloud.sensor_pose;
         transform_in_place(cloud, *map_from_scan);
     } else {
         make_missing(cloud);

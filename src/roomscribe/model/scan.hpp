@@ -39,6 +39,15 @@ struct MapSection {
     Eigen::Vector3d scan_shift = Eigen::Vector3d::Zero();  ///< global_shift of the scan itself
     /// The scanner's frame -> the map frame, where its position is known and its axes are, too.
     std::optional<Eigen::Matrix3d> sensor_axes = std::nullopt;
+    /// No file says so: it is the scan's origin, where the scanner of most files stands.
+    bool sensor_is_assumed = false;
+};
+
+/// A place from which clouds may have been seen that were merged before: nothing in them hides
+/// these points of the map from there.
+struct InferredView {
+    Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< in the map frame
+    std::vector<std::uint32_t> points;
 };
 
 /// All scans in one frame, one after another in input order: every point of every scan, NaN too.
@@ -46,6 +55,8 @@ struct MapSection {
 struct ScanMap {
     PointCloud cloud;
     std::vector<MapSection> sections;
+    /// Instead of the scanners of sections that have none: see infer_views.
+    std::vector<InferredView> inferred_views = {};
 };
 
 /// Puts the scans one after another. `map_from_scan[i]` is empty for a scan without a place.

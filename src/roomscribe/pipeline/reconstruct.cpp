@@ -25,6 +25,7 @@
 #include "roomscribe/model/result_bytes.hpp"
 #include "roomscribe/preprocessing/beam_offsets.hpp"
 #include "roomscribe/preprocessing/false_returns.hpp"
+#include "roomscribe/preprocessing/inferred_views.hpp"
 #include "roomscribe/preprocessing/scan_origin.hpp"
 #include "roomscribe/structure/outlined_patches.hpp"
 #include "roomscribe/structure/planar_surfaces.hpp"
@@ -82,29 +83,21 @@ void add_derived_values(std::vector<DerivedValue>& derived, const ScanStatistics
                            : "three times the noise and the evenness of finished walls"});
 }
 
-/// A scan that does not say where it was seen from mostly was from its origin: then its rays are
+/// A cloud that does not say where it was seen from mostly was from its origin: then its rays are
 /// evidence.
-void infer_scanner(Reconstruction& reconstruction, const Context& context) {
+void settle_scanners(Reconstruction& reconstruction, const Context& context) {
     ScanMap& map = reconstruction.map;
-    if (map.sections.size() != 1 || map.sections[0].sensor_position ||
-        !map.cloud.global_shift.isZero()) {
-        return;
+    for (const auto& [section, test] : settle_assumed_scanners(map, context)) {
+        if (test.is_scanner && map.sections.size() > 1) continue;
+        reconstruction.derived_values.push_back(
+            {"structure.jumps_from_origin", test.share_of_jumps, "",
+             map.sections[section].name +
+                 (test.is_scanner
+                      ? ": so few neighbours in direction differ in distance that the cloud was "
+                        "scanned from its origin"
+                      : ": neighbours in direction that differ in distance; it was merged before, "
+                        "and where it was scanned from is not known")});
     }
-    // Its ends of the range would be jumps everywhere.
-    Scan scan;
-    scan.cloud.positions = map.cloud.positions;
-    const std::optional<Scan> cleaned = without_false_returns(scan, context);
-    const OriginTest test = test_scan_origin(cleaned ? cleaned->cloud : scan.cloud);
-    if (test.is_scanner) {
-        map.sections[0].sensor_position = Eigen::Vector3d::Zero();
-        map.sections[0].sensor_axes = Eigen::Matrix3d::Identity();
-    }
-    reconstruction.derived_values.push_back(
-        {"structure.jumps_from_origin", test.share_of_jumps, "",
-         test.is_scanner ? "so few neighbours in direction differ in distance that the cloud was "
-                           "scanned from its origin"
-                         : "neighbours in direction that differ in distance: where the cloud was "
-                           "scanned from is not known"});
 }
 
 /// Times stages and reports that they are done.
@@ -156,22 +149,26 @@ std::vector<Fixture> find_fixtures_by(const ScanMap& map, const SurfaceSample& s
     return find_fixtures(map, sample, faces, settings, context);
 }
 
-void interpret_by_default(Reconstruction& reconstruction, const ScanMap& map,
-                          const PipelineSettings& settings, const Context& context) {
+void interpret_by_default(Reconstruction& reconstruction, const PipelineSettings& settings,
+                          const Context& context) {
     StageReporter stages(reconstruction, context);
+    ScanMap& map = reconstruction.map;
     const ScanStatistics statistics = estimate_scan_statistics(map.cloud, context);
     SurfaceSample sample = sample_surface(map, statistics, settings.structure.sample, context);
     sample.tolerance = settings.structure.plane_tolerance.value_or(sample.tolerance);
     stages.finish("sample surface", 0.4);
-    const std::vector<PlanarPatch> patches = find_planes(map, sample, settings, context);
+    std::vector<PlanarPatch> patches = find_planes(map, sample, settings, context);
     stages.finish("planes", 0.7);
     reconstruction.patches = outline_patches(sample, patches, context);
     stages.finish("outlines for pictures", 0.72);
     const PrincipalAxes axes = find_axes(map, sample, patches, settings, context);
     stages.finish("principal axes", 0.75);
-    const Upright upright =
-        find_upright(sample, patches, axes, settings.interpretation.upright, context);
+    Upright upright = find_upright(sample, patches, axes, settings.interpretation.upright, context);
     stages.finish("upright", 0.8);
+    map.inferred_views = infer_views(map, upright.room_from_map.row(2).transpose(),
+                                     statistics.point_spacing, context);
+    upright.facing_is_known |= face_inferred_views(map, sample, patches);
+    stages.finish("views", 0.82);
     const std::vector<Ray> rays = sample_rays(map);
     RoomSurfaces surfaces = find_room_surfaces(rays, sample, patches, upright,
                                                settings.interpretation.surfaces, context);
@@ -353,7 +350,7 @@ Reconstruction register_to_map(std::vector<Scan>&& scans, const PipelineSettings
 void interpret_map(Reconstruction& reconstruction, const PipelineSettings& settings,
                    const Context& context) {
     check_settings(settings);
-    infer_scanner(reconstruction, context);
+    settle_scanners(reconstruction, context);
     const std::vector<HiddenPoint> hidden = hide_false_returns(reconstruction.map, context);
     if (!hidden.empty()) {
         reconstruction.derived_values.push_back(
@@ -371,7 +368,7 @@ void interpret_map(Reconstruction& reconstruction, const PipelineSettings& setti
     if (settings.interpretation.method == InterpretationMethod::paper) {
         interpret_as_paper(reconstruction, map, settings, context);
     } else {
-        interpret_by_default(reconstruction, map, settings, context);
+        interpret_by_default(reconstruction, settings, context);
     }
     measure_support(map, reconstruction.labels, reconstruction.scene.components, context);
     doubt_blurred_places(reconstruction.scene, reconstruction.labels);

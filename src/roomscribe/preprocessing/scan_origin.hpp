@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <utility>
+#include <vector>
+
+#include "roomscribe/core/context.hpp"
 #include "roomscribe/geometry/point_cloud.hpp"
+#include "roomscribe/model/scan.hpp"
 
 namespace roomscribe {
 
@@ -17,5 +22,12 @@ struct OriginTest {
     double share_of_jumps = 1.0;
 };
 OriginTest test_scan_origin(const PointCloud& cloud);
+
+/// Tests the scanners that a map assumes, and takes away those that were none for certain: the scan
+/// was a map itself. To a map of a single cloud that has none it gives the cloud's origin if that
+/// stands test_scan_origin (and the cloud is not shifted: far coordinates begin nowhere). Returns
+/// the tests, by section.
+std::vector<std::pair<std::size_t, OriginTest>> settle_assumed_scanners(ScanMap& map,
+                                                                        const Context& context);
 
 }  // namespace roomscribe

@@ -17,22 +17,37 @@ namespace {
 constexpr double min_voxel_size = 0.04;
 constexpr double wall_unevenness = 0.01;
 
-/// Turns each normal to the side from which most of the voxel's points were seen.
-void face_scanners(const ScanMap& map, SurfaceSample& sample) {
+bool knows_all_sensors(const ScanMap& map) {
+    return !map.sections.empty() &&
+           std::all_of(map.sections.begin(), map.sections.end(), [](const MapSection& section) {
+               return section.sensor_position.has_value();
+           });
+}
+
+/// Turns each normal to the side from which most of the voxel's points were seen. Returns by how
+/// many more, per voxel.
+std::vector<std::int32_t> face_scanners(const ScanMap& map, SurfaceSample& sample) {
     std::vector<std::int32_t> votes(sample.cloud.size(), 0);
+    const auto vote = [&](std::uint32_t point, const Eigen::Vector3f& sensor) {
+        const std::uint32_t voxel = sample.voxel_of_point[point];
+        if (voxel == no_voxel) return;
+        const Eigen::Vector3f ray = sensor - map.cloud.positions[point];
+        votes[voxel] += sample.cloud.normals[voxel].dot(ray) >= 0.0F ? 1 : -1;
+    };
     for (const MapSection& section : map.sections) {
         if (!section.sensor_position) continue;
-        const Eigen::Vector3f sensor = section.sensor_position->cast<float>();
-        for (std::uint32_t i = section.first; i < section.first + section.count; ++i) {
-            const std::uint32_t voxel = sample.voxel_of_point[i];
-            if (voxel == no_voxel) continue;
-            const Eigen::Vector3f ray = sensor - map.cloud.positions[i];
-            votes[voxel] += sample.cloud.normals[voxel].dot(ray) >= 0.0F ? 1 : -1;
-        }
+        for (std::uint32_t i = section.first; i < section.first + section.count; ++i)
+            vote(i, section.sensor_position->cast<float>());
+    }
+    for (const InferredView& view : map.inferred_views) {
+        for (const std::uint32_t point : view.points)
+            vote(point, view.position.cast<float>());
     }
     for (std::size_t i = 0; i < votes.size(); ++i) {
         if (votes[i] < 0) sample.cloud.normals[i] = -sample.cloud.normals[i];
+        votes[i] = std::abs(votes[i]);
     }
+    return votes;
 }
 
 Eigen::Vector3d find_usual_up(const ScanMap& map) {
@@ -97,7 +112,7 @@ std::vector<Sight> find_sights(const ScanMap& map, const SurfaceSample& sample) 
 /// the more obliquely that is seen.
 std::vector<float> noise_of_sight(const ScanMap& map, const SurfaceSample& sample) {
     std::vector<float> noise(sample.cloud.size(), static_cast<float>(sample.noise));
-    if (!sample.normals_face_scanner) return noise;
+    if (!knows_all_sensors(map)) return noise;
     // Bins of half a doubling from 2 cm on.
     constexpr std::size_t num_bins = 32;
     constexpr std::size_t enough = 50;
@@ -159,13 +174,32 @@ SurfaceSample sample_surface(const ScanMap& map, const ScanStatistics& statistic
     // Quantised ranges look free of noise point by point, but not over several voxels.
     sample.noise = std::max(sample.noise, lower_quartile(std::move(found.residuals)));
     sample.tolerance = plane_tolerance(sample.noise);
-    sample.normals_face_scanner =
-        !map.sections.empty() &&
-        std::all_of(map.sections.begin(), map.sections.end(),
-                    [](const MapSection& section) { return section.sensor_position.has_value(); });
+    sample.normals_face_scanner = knows_all_sensors(map);
     if (sample.normals_face_scanner) face_scanners(map, sample);
     sample.noise_of_voxel = noise_of_sight(map, sample);
     return sample;
+}
+
+bool face_inferred_views(const ScanMap& map, SurfaceSample& sample,
+                         std::span<PlanarPatch> patches) {
+    if (map.inferred_views.empty() || !sample.sensor_positions.empty()) return false;
+    sample.normals_face_scanner = true;
+    const std::vector<std::int32_t> votes = face_scanners(map, sample);
+    for (PlanarPatch& patch : patches) {
+        const auto agrees = [&](std::uint32_t voxel) {
+            return sample.cloud.normals[voxel].dot(patch.plane.normal.cast<float>()) >= 0.0F;
+        };
+        std::int64_t facing = 0;
+        for (const std::uint32_t voxel : patch.points)
+            facing += votes[voxel] == 0 ? 0 : agrees(voxel) ? 1 : -1;
+        if (facing < 0) patch.plane = patch.plane.flipped();
+        // What no view sees looks where the rest of its surface does.
+        for (const std::uint32_t voxel : patch.points) {
+            if (votes[voxel] == 0 && !agrees(voxel))
+                sample.cloud.normals[voxel] = -sample.cloud.normals[voxel];
+        }
+    }
+    return true;
 }
 
 }  // namespace roomscribe

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "roomscribe/core/context.hpp"
@@ -9,6 +10,7 @@
 #include "roomscribe/model/scan.hpp"
 #include "roomscribe/preprocessing/scan_statistics.hpp"
 #include "roomscribe/preprocessing/voxel_grid.hpp"
+#include "roomscribe/structure/planar_patch.hpp"
 
 namespace roomscribe {
 
@@ -17,8 +19,8 @@ namespace roomscribe {
 struct SurfaceSample {
     PointCloud cloud;  ///< centroid and unit normal (NaN where there is none) per voxel
     std::vector<std::uint32_t> voxel_of_point;  ///< per map point: its voxel, or no_voxel
-    /// Every normal looks to a scanner that saw the point. False when no section of the map knows
-    /// where it was seen from: then the normals' signs mean nothing.
+    /// Every normal looks to a scanner that saw the point, or to a place that it may have been seen
+    /// from. False where neither is known of a section: then the normals' signs mean nothing.
     bool normals_face_scanner = false;
     std::vector<Eigen::Vector3d> sensor_positions;  ///< the known ones
     /// Which way is up if the scanners are mounted as most are: see common_up.
@@ -73,5 +75,9 @@ double plane_tolerance(double noise);
 SurfaceSample sample_surface(const ScanMap& map, const ScanStatistics& statistics,
                              const SurfaceSampleSettings& settings = {},
                              const Context& context = {});
+
+/// Turns normals and patches to the inferred views of a map none of whose scanners is known.
+/// Whether it has any.
+bool face_inferred_views(const ScanMap& map, SurfaceSample& sample, std::span<PlanarPatch> patches);
 
 }  // namespace roomscribe

@@ -155,5 +155,20 @@ TEST(WallFaces, AKneeWallReachesTheSlopeOverIt) {
     }
 }
 
+TEST(WallFaces, WhatPartsTwoRoomsIsAWallThoughItsTopWasNotSeen) {
+    for (const auto& [is_room_behind, height, count] :
+         {std::tuple(true, 2.1, 1U), std::tuple(false, 2.1, 0U), std::tuple(true, 1.7, 0U)}) {
+        RoomWithSurfaces room;
+        room.plan.rooms.push_back({0.0, ceiling, ceiling});
+        for (std::size_t cell = 0; cell < room.plan.num_cells(); ++cell) {
+            if (room.plan.middle_of(cell).x() > -0.05) continue;
+            room.plan.has_level[cell] = true;
+            if (is_room_behind) room.plan.room_of_cell[cell] = 1;
+        }
+        room.add(Vector3d::Zero(), 0.0, 4.0, height, everywhere);
+        EXPECT_EQ(room.find().size(), count) << is_room_behind << ' ' << height;
+    }
+}
+
 }  // namespace
 }  // namespace roomscribe

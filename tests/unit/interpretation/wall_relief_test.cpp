@@ -117,6 +117,33 @@ TEST(WallRelief, GuessesAHoleWhereNothingWasSeenAndNothingStands) {
     EXPECT_EQ(relief.at(35, 5).hidden, 1U);
 }
 
+/// Points on the wall and in it count where they lie, once for all views; what the views look over
+/// or through counts where they look.
+TEST(WallRelief, FollowsInferredViewsBeyondTheWall) {
+    const Vector3d eye(3.0, 2.0, 1.2);
+    ScanMap map;
+    add_ray(map, eye, 0.55, 0.55, 0.0);   // on the wall
+    add_ray(map, eye, 1.55, 0.55, -0.2);  // in a hole
+    add_ray(map, eye, 3.55, 0.55, 1.0);   // before it
+    for (const double x : {-1.0, -2.0, -3.0})
+        add_ray(map, eye, 2.55, 0.55, x);  // through it
+    map.sections.push_back({"map", 0, 6, std::nullopt});
+    map.inferred_views = {
+        {eye, {0, 1, 2, 3, 4, 5}}, {eye, {0, 1}}, {Vector3d(-2.0, 2.0, 1.2), {4, 5}}};
+    const WallRelief relief = measure(map);
+    EXPECT_FALSE(relief.has_rays);
+    EXPECT_TRUE(relief.looks_beyond);
+    EXPECT_EQ(relief.at(5, 5).surface, 1U);
+    std::uint32_t num_recess = 0;
+    for (const ReliefCell& cell : relief.cells)
+        num_recess += cell.recess;
+    EXPECT_EQ(num_recess, 1U);
+    EXPECT_EQ(relief.at(25, 5).through, 3U);
+    EXPECT_EQ(relief.at(35, 5).hidden, 1U);
+    // Nobody looked here: a guess, as without views.
+    EXPECT_GT(relief.at(20, 20).through, 0U);
+}
+
 TEST(WallRelief, IsCutByColumns) {
     const Vector3d sensor(3.0, 2.0, 1.2);
     ScanMap map;

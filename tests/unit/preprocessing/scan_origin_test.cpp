@@ -2,6 +2,8 @@
 #include "roomscribe/preprocessing/scan_origin.hpp"
 
 #include <limits>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -53,6 +55,68 @@ TEST(ScanOrigin, SaysNoToNothing) {
     PointCloud lost;
     lost.positions.assign(5000, Eigen::Vector3f::Constant(std::numeric_limits<float>::quiet_NaN()));
     EXPECT_FALSE(test_scan_origin(lost).is_scanner);
+}
+
+/// Both scans of a room in one map; the files of neither say where it was seen from.
+ScanMap map_of(PointCloud first, PointCloud second) {
+    std::vector<Scan> scans(2);
+    scans[0].cloud = std::move(first);
+    scans[1].cloud = std::move(second);
+    Transform shifted = Transform::Identity();
+    shifted.translation() = Eigen::Vector3d(8.0, 0.0, 0.0);
+    const std::vector<std::optional<Transform>> poses{Transform::Identity(), shifted};
+    return merge_scans(std::move(scans), poses);
+}
+
+/// Into the coordinates of a building.
+PointCloud moved_scan() {
+    PointCloud moved = scan_of_room();
+    for (Eigen::Vector3f& point : moved.positions)
+        point += Eigen::Vector3f(4.0F, 3.0F, 1.0F);
+    moved.sensor_pose.reset();
+    return moved;
+}
+
+PointCloud silent_scan() {
+    PointCloud scan = scan_of_room();
+    scan.sensor_pose.reset();
+    return scan;
+}
+
+TEST(SettleAssumedScanners, TakesAwayOneThatStoodElsewhere) {
+    ScanMap map = map_of(silent_scan(), moved_scan());
+    ASSERT_TRUE(map.sections[1].sensor_position);
+    const auto tests = settle_assumed_scanners(map, {});
+    ASSERT_EQ(tests.size(), 2U);
+    EXPECT_TRUE(tests[0].second.is_scanner);
+    EXPECT_FALSE(tests[1].second.is_scanner);
+    EXPECT_TRUE(map.sections[0].sensor_position);
+    EXPECT_TRUE(map.sections[0].sensor_axes);
+    EXPECT_FALSE(map.sections[1].sensor_position);
+    EXPECT_FALSE(map.sections[1].sensor_axes);
+}
+
+TEST(SettleAssumedScanners, BelievesWhatFilesSay) {
+    PointCloud moved = moved_scan();
+    moved.sensor_pose = Transform::Identity();
+    ScanMap map = map_of(silent_scan(), moved);
+    EXPECT_EQ(settle_assumed_scanners(map, {}).size(), 1U);
+    EXPECT_TRUE(map.sections[1].sensor_position);
+}
+
+TEST(SettleAssumedScanners, GivesALoneCloudItsScanner) {
+    Scan scan;
+    scan.cloud = silent_scan();
+    ScanMap map = map_of_cloud(scan);
+    ASSERT_FALSE(map.sections[0].sensor_position);
+    settle_assumed_scanners(map, {});
+    ASSERT_TRUE(map.sections[0].sensor_position);
+    EXPECT_TRUE(map.sections[0].sensor_position->isZero());
+    // Far coordinates begin nowhere.
+    scan.cloud.global_shift = Eigen::Vector3d(4.0e5, 5.0e6, 0.0);
+    map = map_of_cloud(scan);
+    EXPECT_TRUE(settle_assumed_scanners(map, {}).empty());
+    EXPECT_FALSE(map.sections[0].sensor_position);
 }
 
 }  // namespace

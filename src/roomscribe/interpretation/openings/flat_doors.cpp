@@ -255,8 +255,6 @@ class FlatDoorSearch {
     /// on up there. A corner closely beside the leaf hides one side.
     double proud_contrast(const CellRectangle& door, const Sum& leaf,
                           const std::array<Side, 3>& sides, double least) const {
-        // Without rays nobody knows what stands before it.
-        if (!relief_.has_rays) return 0.0;
         if (leaf.covered > max_covered * leaf.count) return 0.0;
         double contrast = std::numeric_limits<double>::infinity();
         double lowest = max_proud;

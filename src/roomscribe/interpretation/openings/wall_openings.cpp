@@ -95,7 +95,7 @@ struct HoleSigns {
 HoleSigns read_signs(const HoleEvidence& evidence, const WallRelief& relief, double above_floor) {
     HoleSigns signs;
     signs.above_floor = above_floor;
-    signs.is_guess = !relief.has_rays && evidence.through_share >= 0.5;
+    signs.is_guess = !relief.looks_beyond && evidence.through_share >= 0.5;
     // What was seen in the hole lies in one plane.
     constexpr double min_frame_share = 0.25;
     signs.is_closed = (evidence.opaque >= min_leaf_share && evidence.at_depth >= 0.6) ||
@@ -247,7 +247,7 @@ void OpeningFinder::judge_way(const HoleEvidence& evidence, const HoleSigns& sig
     opening.hole.bottom = rooms.floor_height;
     opening.frame_width = casing_width;
     const bool is_glazed = evidence.lost >= min_lost ||
-                           (relief.has_rays && evidence.through_share >= 0.3) ||
+                           (relief.looks_beyond && evidence.through_share >= 0.3) ||
                            (signs.shows_outdoors && evidence.opaque <= 1.0 - min_outdoors);
     // Of a leaf deep in its wall, seen aslant, most rays show the reveals.
     const std::optional<double> leaf_depth =
@@ -320,7 +320,7 @@ bool OpeningFinder::judge_window(const HoleEvidence& evidence, const HoleSigns& 
         evidence.sunk() >= min_sinking && evidence.depths.rim_at_depth >= min_rim_at_depth;
     const bool is_glazed = evidence.lost >= min_lost || is_sunk || signs.shows_outdoors ||
                            signs.is_guess ||
-                           (relief.has_rays && evidence.through_share >= min_through);
+                           (relief.looks_beyond && evidence.through_share >= min_through);
     // A mirror shows what lies behind it without a frame in the wall, and as often as not where
     // another room is; but never the ground outdoors, and nothing where no ray passes.
     const bool may_be_mirror = !signs.shows_outdoors && evidence.through_share >= min_through;

@@ -98,16 +98,43 @@ void follow_rays(WallRelief& relief, const FaceFrame& frame, std::span<const Vec
     }
 }
 
+/// What an inferred view says of a wall, but for the points on it and in it, which count where
+/// they lie.
+void follow_view(WallRelief& relief, const FaceFrame& frame, std::span<const Vector3f> points,
+                 const InferredView& view, std::size_t stride) {
+    const Vector3f eye = frame(view.position.cast<float>());
+    if (eye.z() <= 2.0F * static_cast<float>(relief.tolerance)) return;
+    for (std::size_t i = 0; i < view.points.size(); i += stride) {
+        const Vector3f point = frame(points[view.points[i]]);
+        const bool is_before = point.z() > max_relief;
+        if (!is_before && point.z() >= -static_cast<float>(max_wall_depth)) continue;
+        const float share = eye.z() / (eye.z() - point.z());
+        if (!(share > 0.0F)) continue;
+        const float along = eye.x() + share * (point.x() - eye.x());
+        const float above = eye.y() + share * (point.y() - eye.y());
+        if (is_before) {
+            count(relief, along, above, &ReliefCell::hidden);
+        } else {
+            count(relief, along, above, &ReliefCell::through);
+            if (point.y() < -below_floor || point.z() < -farthest_room)
+                count(relief, along, above, &ReliefCell::outdoors);
+        }
+    }
+}
+
+/// `counts_cover`: what stands before the wall may have hidden it.
 void place_points(WallRelief& relief, const FaceFrame& frame, std::span<const Vector3f> points,
-                  std::size_t stride) {
+                  std::size_t stride, bool counts_cover) {
     const auto tolerance = static_cast<float>(relief.tolerance);
     for (std::size_t i = 0; i < points.size(); i += stride) {
         const Vector3f point = frame(points[i]);
+        if (point.z() > max_relief && point.z() <= static_cast<float>(furniture_depth))
+            count(relief, point.x(), point.y(), &ReliefCell::standing);
         if (point.z() >= -tolerance && point.z() <= max_relief) {
             count(relief, point.x(), point.y(), &ReliefCell::surface, point.z());
         } else if (point.z() < -tolerance && point.z() >= -static_cast<float>(max_wall_depth)) {
             count(relief, point.x(), point.y(), &ReliefCell::recess, point.z());
-        } else if (point.z() > max_relief && point.z() <= max_cover) {
+        } else if (counts_cover && point.z() > max_relief && point.z() <= max_cover) {
             count(relief, point.x(), point.y(), &ReliefCell::hidden);
         }
     }
@@ -116,7 +143,8 @@ void place_points(WallRelief& relief, const FaceFrame& frame, std::span<const Ve
 /// Where nothing was seen on the face, in it or before it, there may be a hole.
 void assume_holes(WallRelief& relief) {
     for (ReliefCell& cell : relief.cells) {
-        if (cell.surface + cell.recess + cell.hidden == 0) cell.through = assumed_rays;
+        if (cell.surface + cell.recess + cell.hidden == 0)
+            cell.through = std::max(cell.through, assumed_rays);
     }
 }
 
@@ -146,9 +174,12 @@ WallRelief measure_wall_relief(const ScanMap& map, const WallFace& face, const E
             relief.has_rays = true;
             follow_rays(relief, frame, seen, stride, section.sensor_position->cast<float>());
         } else {
-            place_points(relief, frame, seen, stride);
+            place_points(relief, frame, seen, stride, map.inferred_views.empty());
         }
     }
+    for (const InferredView& view : map.inferred_views)
+        follow_view(relief, frame, points, view, stride);
+    relief.looks_beyond = relief.has_rays || !map.inferred_views.empty();
     if (!relief.has_rays) assume_holes(relief);
     return relief;
 }

@@ -51,6 +51,9 @@ struct WallRelief {
     /// Rays were followed: the scanners are known. Else what lies before or behind the face counts
     /// where it lies, and `through` is a guess: nothing was seen there at all.
     bool has_rays = false;
+    /// What was seen through the wall is known from rays, or from inferred views; and of cells that
+    /// none of these met, that nothing was seen there.
+    bool looks_beyond = false;
 
     std::size_t index(int column, int row) const {
         return static_cast<std::size_t>(row) * static_cast<std::size_t>(num_columns) +

@@ -162,7 +162,7 @@ void BarrierDrawer::draw(const UprightSurface& surface) {
     const auto closes = [&](double position) {
         const Vector2d place = place_of(position);
         return !has_level_behind(place, normal) ||
-               (!sample_.normals_face_scanner && !has_level_behind(place, -normal));
+               (sample_.sensor_positions.empty() && !has_level_behind(place, -normal));
     };
     if (is_beam(slices, place_of)) return;
     const bool is_high = surface.top >= floor_height_ + settings_.min_closing_top;

@@ -39,6 +39,9 @@ constexpr double max_inset = 0.3;
 constexpr double max_furniture_depth = 1.0;
 constexpr double min_clearance = 0.15;
 
+/// m. What stands between two rooms and is so high is no furniture.
+constexpr double min_parting_height = 2.0;
+
 /// m, in which it is told where along a wall something was seen.
 constexpr double column_width = 0.1;
 
@@ -83,6 +86,7 @@ class FaceFinder {
     double share_behind(const WallFace& face, double nearest, double farthest, Test&& test) const;
     bool is_last(const WallFace& face) const;
     bool has_level_behind(const WallFace& face) const;
+    bool parts_rooms(const WallFace& face) const;
     std::optional<double> ceiling_over(const WallFace& face) const;
     AboveFace look_above(const WallFace& face, std::optional<double> ceiling) const;
     bool is_knee_wall(const WallFace& face, std::optional<double> ceiling) const;
@@ -214,6 +218,15 @@ bool FaceFinder::has_level_behind(const WallFace& face) const {
                         [&](const Vector2d& place) { return plan_.has_level_at(place); }) > 0.5;
 }
 
+/// Whether behind most of the face lies another room.
+bool FaceFinder::parts_rooms(const WallFace& face) const {
+    constexpr double farthest = 0.4;
+    return share_behind(face, 2.0 * plan_.cell_size(), farthest, [&](const Vector2d& place) {
+               const std::int32_t room = plan_.room_at(place);
+               return room != no_room && room != face.room;
+           }) > 0.5;
+}
+
 /// Height of the ceiling along the face; where little of that was seen, the room's lowest.
 std::optional<double> FaceFinder::ceiling_over(const WallFace& face) const {
     const double step = plan_.cell_size();
@@ -266,6 +279,7 @@ bool FaceFinder::is_wall(const WallFace& face, std::optional<double> ceiling) co
     // Beams, ducts and soffits end above the floor, which goes on under them.
     if (face.reaches_ceiling) return face.reaches_floor || !has_level_behind(face);
     if (!ceiling && height >= settings_.min_free_wall_height) return true;
+    if (height >= min_parting_height && parts_rooms(face)) return true;
     const bool is_tall = face.top >= room.floor_height + settings_.min_closing_top ||
                          (!rays_.empty() && above == AboveFace::unseen);
     return face.area >= min_closing_area && is_tall && is_last(face);
