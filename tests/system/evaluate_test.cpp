@@ -120,11 +120,13 @@ TEST(Evaluate, SaysWhichFileIsWrong) {
     expect_error(evaluate(folder), 3, {"map.labels.npy"});
 }
 
-TEST(Evaluate, ScoresARealLabelledHallway) {
+class RealLabelledHallway : public testing::TestWithParam<const char*> {};
+
+TEST_P(RealLabelledHallway, IsScored) {
     const std::filesystem::path hallway = real_scan("rooms/s3dis/Area_3_hallway_3.ply");
     ROOMSCRIBE_REQUIRE_REAL_SCAN(hallway);
     const TemporaryFolder folder;
-    ASSERT_EQ(roomscribe({"interpret", hallway.string(), "-o", folder.path().string()}).exit_code,
+    ASSERT_EQ(roomscribe({GetParam(), hallway.string(), "-o", folder.path().string()}).exit_code,
               0);
     const ProgramResult result = roomscribe(
         {"evaluate", hallway.string(), folder.path().string(), "--convention", "s3dis", "--json"});
@@ -139,6 +141,10 @@ TEST(Evaluate, ScoresARealLabelledHallway) {
     EXPECT_EQ(json.at("detection").at("door").at("ground_truth"), 0);
     EXPECT_LT(json.at("axes").at("up").at("max"), 1.0);
 }
+
+/// A merged map says nothing of scans, and a run of it writes poses.
+INSTANTIATE_TEST_SUITE_P(Evaluate, RealLabelledHallway, testing::Values("run", "interpret"),
+                         [](const auto& tested) { return std::string(tested.param); });
 
 }  // namespace
 }  // namespace roomscribe::test

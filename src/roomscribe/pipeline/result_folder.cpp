@@ -145,10 +145,12 @@ Prediction read_result_folder(const fs::path& folder, const GroundTruth& truth,
              "give the output folder of roomscribe run, register or interpret");
     }
     Prediction prediction;
-    if (has("poses.txt")) {
+    // A cloud that was labelled by hand knows nothing of scans.
+    const bool knows_scans = !truth.map_from_scan.empty();
+    if (knows_scans && has("poses.txt")) {
         prediction.map_from_scan = read_result_poses(folder / "poses.txt", truth, context);
     }
-    if (has("registration.json")) {
+    if (knows_scans && has("registration.json")) {
         prediction.links = read_links(folder / "registration.json", truth);
     }
     if (has("labels.ply") || has("scene.json")) {

@@ -113,6 +113,30 @@ double share_of(const Reconstruction& result, Label label) {
 
 // A camera looks along z and has y down.
 
+/// Three scans of a furnished room that somebody merged, in the room's own coordinates.
+TEST(AMergedMap, IsInterpretedTheSameAsAScanOfARun) {
+    test::LabelledCloud room = test::simulate_furnished_room(3);
+    Scan merged;
+    merged.name = "merged.ply";
+    merged.cloud = room.cloud;
+    const Reconstruction run = reconstruct(std::vector<Scan>{merged});
+    Reconstruction map;
+    map.map = map_of_cloud(std::move(merged));
+    interpret_map(map);
+
+    EXPECT_FALSE(run.map.sections[0].sensor_position);
+    EXPECT_FALSE(run.map.inferred_views.empty());
+    EXPECT_EQ(run.labels.labels, map.labels.labels);
+    EXPECT_THAT(run.derived_values, testing::Contains(testing::Field(
+                                        &DerivedValue::name, "structure.jumps_from_origin")));
+    ASSERT_EQ(run.scene.rooms.size(), 1U);
+    EXPECT_NEAR(run.scene.rooms[0].ceiling_height - run.scene.rooms[0].floor_height, 2.7, 0.02);
+    std::size_t num_right = 0;
+    for (std::size_t i = 0; i < room.labels.size(); ++i)
+        num_right += run.labels.labels[i] == room.labels[i] ? 1 : 0;
+    EXPECT_GT(static_cast<double>(num_right), 0.9 * static_cast<double>(room.labels.size()));
+}
+
 TEST(OneCameraFrame, OfAWallAloneIsAWall) {
     Scan frame;
     add_rectangle(frame, {-0.8, -0.6, 1.5}, {1.6, 0, 0}, {0, 1.2, 0});
