@@ -24,9 +24,9 @@ constexpr std::size_t min_points = 1000;
 /// Points that are looked at.
 constexpr std::size_t max_points = 2'000'000;
 /// m, edge of the cells that tell free from occupied; of the points' spacing, so that no surface
-/// has holes. Two faces of a wall are to be in different cells.
+/// has holes. In larger ones the two faces of a wall (10 to 15 cm within a house) are one.
 constexpr double min_cell_size = 0.05;
-constexpr double max_cell_size = 0.3;
+constexpr double max_cell_size = 0.15;
 constexpr double cells_per_spacing = 2.5;
 constexpr double max_cells = 4e8;
 /// Of the points to either side of each axis, and m beyond: no room.
@@ -415,9 +415,9 @@ std::vector<InferredView> infer_views(const ScanMap& map, const Eigen::Vector3d&
             numbers.push_back(static_cast<std::uint32_t>(i));
         }
     }
-    if (points.size() < min_points) return {};
-    const Occupancy occupancy(
-        points, std::clamp(cells_per_spacing * point_spacing, min_cell_size, max_cell_size));
+    const double cell_size = std::max(cells_per_spacing * point_spacing, min_cell_size);
+    if (points.size() < min_points || cell_size > max_cell_size) return {};
+    const Occupancy occupancy(points, cell_size);
     const std::vector<Vector3f> directions = sphere();
     const Vector3f upwards = up.cast<float>();
     const std::vector<Vector3f> free = places_within(occupancy, upwards, directions);

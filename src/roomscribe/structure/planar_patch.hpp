@@ -19,8 +19,9 @@ struct PlanarPatch {
     Plane plane;
     std::vector<std::uint32_t> points;  ///< numbers in the cloud it was found in, ascending
     Eigen::Vector3d centroid = Eigen::Vector3d::Zero();
-    double rms = 0.0;   ///< m, of the points about the plane
-    double area = 0.0;  ///< m2, see occupied_area
+    double rms = 0.0;                 ///< m, of the points about the plane
+    double area = 0.0;                ///< m2, see occupied_area
+    bool may_face_both_ways = false;  ///< see face_inferred_views
 };
 
 /// Area of the surface that points on a plane stand for: the squares of edge `cell_size` on the

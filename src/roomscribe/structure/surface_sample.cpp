@@ -16,6 +16,9 @@ namespace {
 
 constexpr double min_voxel_size = 0.04;
 constexpr double wall_unevenness = 0.01;
+/// Of the sights of a surface from its front, those from behind from which on nobody knows which is
+/// which: its other face was not scanned.
+constexpr double two_sided_share = 0.25;
 
 bool knows_all_sensors(const ScanMap& map) {
     return !map.sections.empty() &&
@@ -24,30 +27,38 @@ bool knows_all_sensors(const ScanMap& map) {
            });
 }
 
-/// Turns each normal to the side from which most of the voxel's points were seen. Returns by how
-/// many more, per voxel.
-std::vector<std::int32_t> face_scanners(const ScanMap& map, SurfaceSample& sample) {
-    std::vector<std::int32_t> votes(sample.cloud.size(), 0);
-    const auto vote = [&](std::uint32_t point, const Eigen::Vector3f& sensor) {
+/// How often the points of a voxel were seen from the side that its normal looks to, and from the
+/// other one.
+struct SidesSeen {
+    std::int32_t front = 0;
+    std::int32_t back = 0;
+};
+
+/// Turns each normal to the side from which most of the voxel's points were seen, by scanners or
+/// inferred views. Returns the voxels' sides then.
+std::vector<SidesSeen> face_where_seen(const ScanMap& map, SurfaceSample& sample) {
+    std::vector<SidesSeen> sides(sample.cloud.size());
+    const auto count = [&](std::uint32_t point, const Eigen::Vector3f& eye) {
         const std::uint32_t voxel = sample.voxel_of_point[point];
         if (voxel == no_voxel) return;
-        const Eigen::Vector3f ray = sensor - map.cloud.positions[point];
-        votes[voxel] += sample.cloud.normals[voxel].dot(ray) >= 0.0F ? 1 : -1;
+        const Eigen::Vector3f ray = eye - map.cloud.positions[point];
+        ++(sample.cloud.normals[voxel].dot(ray) >= 0.0F ? sides[voxel].front : sides[voxel].back);
     };
     for (const MapSection& section : map.sections) {
         if (!section.sensor_position) continue;
         for (std::uint32_t i = section.first; i < section.first + section.count; ++i)
-            vote(i, section.sensor_position->cast<float>());
+            count(i, section.sensor_position->cast<float>());
     }
     for (const InferredView& view : map.inferred_views) {
         for (const std::uint32_t point : view.points)
-            vote(point, view.position.cast<float>());
+            count(point, view.position.cast<float>());
     }
-    for (std::size_t i = 0; i < votes.size(); ++i) {
-        if (votes[i] < 0) sample.cloud.normals[i] = -sample.cloud.normals[i];
-        votes[i] = std::abs(votes[i]);
+    for (std::size_t i = 0; i < sides.size(); ++i) {
+        if (sides[i].front >= sides[i].back) continue;
+        std::swap(sides[i].front, sides[i].back);
+        sample.cloud.normals[i] = -sample.cloud.normals[i];
     }
-    return votes;
+    return sides;
 }
 
 Eigen::Vector3d find_usual_up(const ScanMap& map) {
@@ -175,7 +186,7 @@ SurfaceSample sample_surface(const ScanMap& map, const ScanStatistics& statistic
     sample.noise = std::max(sample.noise, lower_quartile(std::move(found.residuals)));
     sample.tolerance = plane_tolerance(sample.noise);
     sample.normals_face_scanner = knows_all_sensors(map);
-    if (sample.normals_face_scanner) face_scanners(map, sample);
+    if (sample.normals_face_scanner) face_where_seen(map, sample);
     sample.noise_of_voxel = noise_of_sight(map, sample);
     return sample;
 }
@@ -184,18 +195,23 @@ bool face_inferred_views(const ScanMap& map, SurfaceSample& sample,
                          std::span<PlanarPatch> patches) {
     if (map.inferred_views.empty() || !sample.sensor_positions.empty()) return false;
     sample.normals_face_scanner = true;
-    const std::vector<std::int32_t> votes = face_scanners(map, sample);
+    const std::vector<SidesSeen> sides = face_where_seen(map, sample);
     for (PlanarPatch& patch : patches) {
         const auto agrees = [&](std::uint32_t voxel) {
             return sample.cloud.normals[voxel].dot(patch.plane.normal.cast<float>()) >= 0.0F;
         };
-        std::int64_t facing = 0;
-        for (const std::uint32_t voxel : patch.points)
-            facing += votes[voxel] == 0 ? 0 : agrees(voxel) ? 1 : -1;
-        if (facing < 0) patch.plane = patch.plane.flipped();
+        std::int64_t front = 0;
+        std::int64_t back = 0;
+        for (const std::uint32_t voxel : patch.points) {
+            front += agrees(voxel) ? sides[voxel].front : sides[voxel].back;
+            back += agrees(voxel) ? sides[voxel].back : sides[voxel].front;
+        }
+        patch.may_face_both_ways = static_cast<double>(std::min(front, back)) >=
+                                   two_sided_share * static_cast<double>(std::max(front, back));
+        if (front < back) patch.plane = patch.plane.flipped();
         // What no view sees looks where the rest of its surface does.
         for (const std::uint32_t voxel : patch.points) {
-            if (votes[voxel] == 0 && !agrees(voxel))
+            if (sides[voxel].front == 0 && !agrees(voxel))
                 sample.cloud.normals[voxel] = -sample.cloud.normals[voxel];
         }
     }

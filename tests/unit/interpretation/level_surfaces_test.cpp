@@ -118,5 +118,18 @@ TEST(LevelSurfaces, ARoofsSlopeIsCeilingIfItRisesToARoomsHeight) {
     }
 }
 
+TEST(LevelSurfaces, AnUpperFloorWhoseUndersideIsSeenFromBelowIsAFloor) {
+    for (const bool is_marked : {true, false}) {
+        LevelScene scene;
+        scene.add(0.0, {0.0, 5.0}, 1.0);
+        scene.add(2.6, {0.0, 3.0}, -1.0);
+        // From below, where the ceiling was not scanned, most of the views see it.
+        scene.add(3.4, {0.0, 5.0}, -1.0);
+        scene.patches.back().may_face_both_ways = is_marked;
+        scene.add(6.0, {0.0, 5.0}, -1.0);
+        EXPECT_EQ(scene.storeys().size(), is_marked ? 2U : 1U);
+    }
+}
+
 }  // namespace
 }  // namespace roomscribe

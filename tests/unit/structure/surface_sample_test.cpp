@@ -66,6 +66,16 @@ TEST(FaceInferredViews, TurnsNormalsAndPatchesToThem) {
     EXPECT_LT(leaf.patches[1].plane.normal.x(), -0.9);
 }
 
+TEST(FaceInferredViews, MarksWhatIsSeenFromBothSides) {
+    Leaf leaf;
+    leaf.map.inferred_views = {{Vector3d(2.0, 0.5, 1.0), leaf.side(0)},
+                               {Vector3d(-2.0, 0.5, 1.0), leaf.side(0)},
+                               {Vector3d(-2.0, 0.5, 1.5), leaf.side(1)}};
+    ASSERT_TRUE(face_inferred_views(leaf.map, leaf.sample, leaf.patches));
+    EXPECT_TRUE(leaf.patches[0].may_face_both_ways);
+    EXPECT_FALSE(leaf.patches[1].may_face_both_ways);
+}
+
 TEST(FaceInferredViews, DoesNothingWithoutThem) {
     Leaf leaf;
     EXPECT_FALSE(face_inferred_views(leaf.map, leaf.sample, leaf.patches));

@@ -54,7 +54,7 @@ std::vector<Level> find_levels(std::span<const PlanarPatch> patches, const Eigen
         nearest->height =
             (nearest->height * nearest->area + height(patch) * area) / (nearest->area + area);
         nearest->area += area;
-        if (facing_is_known) {
+        if (facing_is_known && !patches[patch].may_face_both_ways) {
             nearest->facing_up += patches[patch].plane.normal.dot(up) > 0.0 ? area : -area;
         }
         nearest->patches.push_back(patch);
@@ -71,7 +71,8 @@ void add_sloping_ceilings(std::vector<Storey>& storeys, const SurfaceSample& sam
     constexpr double stray_share = 0.02;
     for (std::uint32_t i = 0; i < patches.size(); ++i) {
         const double cosine = patches[i].plane.normal.dot(up);
-        if (patches[i].area < min_level_area || (facing_is_known && cosine > 0.0)) continue;
+        const bool looks_up = facing_is_known && !patches[i].may_face_both_ways && cosine > 0.0;
+        if (patches[i].area < min_level_area || looks_up) continue;
         if (std::abs(cosine) >= std::cos(max_slope)) continue;
         if (std::abs(cosine) < std::cos(max_roof_slope)) continue;
         std::vector<double> heights;

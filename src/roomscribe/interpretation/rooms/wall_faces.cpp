@@ -72,11 +72,12 @@ class FaceFinder {
 
     void add(const UprightSurface& surface) {
         add_side(surface, surface.plane);
-        if (!sample_.normals_face_scanner) add_side(surface, surface.plane.flipped());
+        if (may_face_both_ways(surface)) add_side(surface, surface.plane.flipped());
     }
     std::vector<WallFace> take();
 
   private:
+    bool may_face_both_ways(const UprightSurface& surface) const;
     std::int32_t room_before(const Vector3d& point, const Vector3d& normal) const;
     bool is_closed_behind(const Vector3d& point, const Vector3d& normal, std::int32_t room) const;
     void add_side(const UprightSurface& surface, const Plane& plane);
@@ -109,6 +110,14 @@ class FaceFinder {
     const RoomSurfacesSettings& settings_;
     std::vector<WallFace> faces_;
 };
+
+bool FaceFinder::may_face_both_ways(const UprightSurface& surface) const {
+    if (!sample_.normals_face_scanner) return true;
+    double area = 0.0;
+    for (const std::uint32_t patch : surface.patches)
+        area += patches_[patch].may_face_both_ways ? patches_[patch].area : 0.0;
+    return area > 0.5 * surface.area;
+}
 
 std::int32_t FaceFinder::room_before(const Vector3d& point, const Vector3d& normal) const {
     // What stands before the wall may hide floor and ceiling to its depth.
