@@ -276,6 +276,30 @@ HoleDepths measure_depths(const WallRelief& relief, const CellRectangle& hole) {
     return depths;
 }
 
+/// How many rays meet a cell in a hole's middle, in those that meet one along its sides: panes
+/// return few, frames all. 1 where too few met the sides to tell, or nobody knows which did.
+double measure_thinning(const WallRelief& relief, const CellRectangle& hole) {
+    if (!relief.has_rays) return 1.0;
+    constexpr double min_rays = 3.0;
+    constexpr double frame_width = 0.08;  // m; 50 to 120 mm
+    const int frame = std::max(1, static_cast<int>(std::lround(frame_width / relief.cell_size)));
+    std::vector<double> sides;
+    std::vector<double> middle;
+    // The outermost cells are half wall.
+    for (int row = hole.low + 1; row < hole.high - 1; ++row) {
+        for (int column = hole.left + 1; column < hole.right - 1; ++column) {
+            const int inwards = std::min(
+                {row - hole.low, hole.high - 1 - row, column - hole.left, hole.right - 1 - column});
+            const ReliefCell& cell = relief.at(column, row);
+            if (cell.hidden > cell.open()) continue;
+            (inwards <= frame ? sides : middle).push_back(cell.surface + cell.open());
+        }
+    }
+    if (sides.empty() || middle.empty()) return 1.0;
+    const double usual = median(sides);
+    return usual >= min_rays ? median(middle) / usual : 1.0;
+}
+
 /// Share of the open cells along the sides in which something was seen in the hole.
 double measure_framing(const WallRelief& relief, const CellRectangle& hole) {
     double framed = 0.0;
@@ -413,6 +437,7 @@ HoleEvidence look_into(const WallRelief& relief, const CellRectangle& hole) {
     evidence.lost = measure_losses(relief, hole);
     evidence.depths = measure_depths(relief, hole);
     evidence.framed = measure_framing(relief, hole);
+    evidence.thinned = measure_thinning(relief, hole);
     evidence.lining = measure_lining(relief, hole);
     return evidence;
 }
@@ -470,6 +495,36 @@ WallRectangle measure_edges(const WallRelief& relief, const CellRectangle& hole)
             relief.start + hole.right * relief.cell_size + right,
             relief.bottom + hole.low * relief.cell_size - below,
             relief.bottom + hole.high * relief.cell_size + above};
+}
+
+int top_of_blind(const WallRelief& relief, const CellRectangle& hole) {
+    constexpr double least_standoff = 0.03;  // m; casings and pictures stand out less
+    constexpr double min_filled = 0.7;
+    constexpr double max_beside = 0.3;
+    // A blind hangs over a hole's sides by less.
+    const int beside = std::max(1, static_cast<int>(std::lround(0.15 / relief.cell_size)));
+    const auto share = [&](int row, int first, int last) {
+        double seen = 0.0;
+        double proud = 0.0;
+        for (int column = std::max(0, first); column < std::min(relief.num_columns, last);
+             ++column) {
+            const ReliefCell& cell = relief.at(column, row);
+            if (cell.near == 0) continue;
+            ++seen;
+            proud += cell.height > static_cast<float>(least_standoff * cell.near) ? 1.0 : 0.0;
+        }
+        return proud / std::max(seen, 1.0);
+    };
+    int top = hole.high;
+    // The lowest slat may end within a row.
+    for (int row = hole.high; row < relief.num_rows && row <= top + 1; ++row) {
+        if (share(row, hole.left + 1, hole.right - 1) >= min_filled &&
+            share(row, hole.left - 2 * beside, hole.left - beside) <= max_beside &&
+            share(row, hole.right + beside, hole.right + 2 * beside) <= max_beside) {
+            top = row + 1;
+        }
+    }
+    return top;
 }
 
 std::optional<double> measure_frame(const WallRelief& relief, const CellRectangle& hole) {

@@ -47,6 +47,8 @@ struct HoleEvidence {
     /// By how much cells without a return are more frequent among the open ones, as panes leave
     /// them, than in the wall around.
     double lost = 0.0;
+    /// Rays to a cell of its middle, in those to a cell along its sides.
+    double thinned = 1.0;
     HoleDepths depths;
 
     std::optional<double> rim_of(HoleSide side) const {
@@ -76,6 +78,11 @@ bool is_flush_pane(const HoleEvidence& evidence);
 /// The hole's edges to a fraction of a cell: of the cells on either side of an edge, as much
 /// belongs to the wall as rays ended on it there.
 WallRectangle measure_edges(const WallRelief& relief, const CellRectangle& hole);
+
+/// The row at which a blind ends that hangs before the wall and hides the top of a window: over the
+/// hole, as wide, things stand 3 to 10 cm before the wall, and beside that they do not. The hole's
+/// own upper row where there is none.
+int top_of_blind(const WallRelief& relief, const CellRectangle& hole);
 
 /// Width of the frame within a window's hole, m: from its sides inwards to where rays pass; nothing
 /// where that tells no likely width.

@@ -62,13 +62,16 @@ constexpr double usual_window_frame = 0.08;
 /// A window's pane lies in its frame, deeper than the frame's front.
 void set_depths(WallOpening& opening, const HoleEvidence& evidence) {
     constexpr double usual_sinking = 0.035;
-    constexpr double max_frame_depth = 0.3;
+    constexpr double most_sinking = 0.1;
     const double sunk = evidence.sunk();
     double frame_depth = evidence.depths.rim.value_or(evidence.depth);
-    // No frame lies behind its pane: of few points, most may have passed beside it.
+    // No frame lies behind its pane: of few points, most may have passed beside it. And no pane
+    // lies so far behind its frame: along the sides a deep reveal was seen.
     if (sunk < 0.0) frame_depth = std::min(frame_depth, evidence.depth);
-    opening.frame_depth = std::min(frame_depth, max_frame_depth);
-    opening.depth = opening.frame_depth + (sunk > 0.01 && sunk < 0.1 ? sunk : usual_sinking);
+    const bool is_reveal = evidence.depth > frame_depth + most_sinking;
+    opening.frame_depth = is_reveal ? evidence.depth : frame_depth;
+    const bool is_told = !is_reveal && sunk > 0.01 && sunk < most_sinking;
+    opening.depth = opening.frame_depth + (is_told ? sunk : usual_sinking);
 }
 
 /// Whether enough was seen of a hole to say what it is.
@@ -318,8 +321,10 @@ bool OpeningFinder::judge_window(const HoleEvidence& evidence, const HoleSigns& 
     constexpr double min_rim_at_depth = 0.25;
     const bool is_sunk =
         evidence.sunk() >= min_sinking && evidence.depths.rim_at_depth >= min_rim_at_depth;
+    // Panes return few rays; half of a window may be blinds.
+    constexpr double max_thinned = 0.7;
     const bool is_glazed = evidence.lost >= min_lost || is_sunk || signs.shows_outdoors ||
-                           signs.is_guess ||
+                           signs.is_guess || evidence.thinned <= max_thinned ||
                            (relief.looks_beyond && evidence.through_share >= min_through);
     // A mirror shows what lies behind it without a frame in the wall, and as often as not where
     // another room is; but never the ground outdoors, and nothing where no ray passes.
@@ -334,6 +339,7 @@ bool OpeningFinder::judge_window(const HoleEvidence& evidence, const HoleSigns& 
     // A blind lies in one plane.
     if (!is_glazed && evidence.at_depth < 0.5) return false;
     opening.type = OpeningType::window;
+    opening.hole.top += relief.cell_size * (top_of_blind(relief, cells) - cells.high);
     set_depths(opening, evidence);
     opening.frame_width = measure_frame(relief, cells).value_or(usual_window_frame);
     opening.rule = is_glazed ? "glazed hole in the wall, above the floor"
