@@ -160,9 +160,9 @@ CandidateTable find_candidates(const Labeller& labeller, std::size_t num_voxels)
 /// Tells what a point near an opening belongs to.
 class OpeningTest {
   public:
-    OpeningTest(const WallOpening& opening, const RoomSurfaces& surfaces, const Eigen::Vector3d& up)
+    OpeningTest(const WallOpening& opening, const RoomSurfaces& surfaces)
         : opening_(opening),
-          axes_(surfaces.storeys[opening.storey].faces[opening.face], up),
+          axes_(face_of(opening, surfaces)),
           leaf_(opening.hole),
           frame_(opening.type == OpeningType::window
                      ? leaf_.grown(hole_slack, hole_slack, hole_slack)
@@ -244,11 +244,10 @@ struct WindowPoint {
 void label_openings(const PointCloud& map, const SurfaceSample& sample,
                     std::span<const PlanarPatch> patches, const RoomSurfaces& surfaces,
                     const Openings& openings, PointLabels& labels, const Context& context) {
-    const Eigen::Vector3d up = surfaces.room_from_map.linear().row(2).transpose();
     std::vector<OpeningTest> tests;
     tests.reserve(openings.openings.size());
     for (const WallOpening& opening : openings.openings)
-        tests.emplace_back(opening, surfaces, up);
+        tests.emplace_back(opening, surfaces);
     std::vector<bool> is_of_leaf(sample.cloud.size(), false);
     for (const WallOpening& opening : openings.openings) {
         for (const OpenLeafSide& side : opening.open_leaves) {

@@ -159,39 +159,93 @@ double attic_ceiling(double x) {
     return 0.9 + std::min({x, 5.0 - x, 1.5});
 }
 
-TEST(Interpretation, UnderARoofTheSlopesAreOneCeilingWithTheLevelPart) {
-    constexpr double length = 6.5;  // m, more than a storey is high: it does not stand on a gable
-    constexpr double step = 0.02;
+constexpr double attic_length = 6.5;  // m, more than a storey is high: no gable to stand on
+
+struct Attic {
     PointCloud cloud;
     std::vector<Label> truth;
-    const auto add = [&](double x, double y, double z, Label label) {
-        cloud.positions.push_back(Eigen::Vector3d(x, y, z).cast<float>());
+
+    void add(const Eigen::Vector3d& point, Label label) {
+        cloud.positions.push_back(point.cast<float>());
         truth.push_back(label);
+    }
+};
+
+/// A window of 0.7 x 1 m in the first slope, its frame 0.15 m deep in a hole that is lined.
+void add_roof_window(Attic& attic, double step) {
+    const Eigen::Vector3d up = Eigen::Vector3d(1.0, 0.0, 1.0).normalized();
+    const Eigen::Vector3d outwards = Eigen::Vector3d(-1.0, 0.0, 1.0).normalized();
+    const Eigen::Vector3d corner = Eigen::Vector3d(0.0, 2.0, 0.9) + 0.6 * up;
+    const auto place = [&](double along, double above, double depth) -> Eigen::Vector3d {
+        return corner + along * Eigen::Vector3d::UnitY() + above * up + depth * outwards;
     };
-    for (double y = 0.5 * step; y < length; y += step) {
+    for (double along = 0.0; along <= 0.7; along += step) {
+        for (double above = 0.0; above <= 1.0; above += step) {
+            const double inside = std::min({along, 0.7 - along, above, 1.0 - above});
+            if (inside < 0.06) attic.add(place(along, above, 0.15), Label::window_frame);
+            for (double depth = step; inside < 0.5 * step && depth < 0.15; depth += step)
+                attic.add(place(along, above, depth), Label::unknown);
+        }
+    }
+}
+
+bool is_in_roof_window(double x, double y) {
+    const double above = std::sqrt(2.0) * x - 0.6;
+    return y > 2.0 && y < 2.7 && above > 0.0 && above < 1.0;
+}
+
+Attic make_attic(bool has_window) {
+    constexpr double step = 0.02;
+    Attic attic;
+    for (double y = 0.5 * step; y < attic_length; y += step) {
         for (double x = 0.5 * step; x < 5.0; x += step) {
-            add(x, y, 0.0, Label::floor);
-            add(x, y, attic_ceiling(x), Label::ceiling);
+            attic.add({x, y, 0.0}, Label::floor);
+            if (!has_window || !is_in_roof_window(x, y))
+                attic.add({x, y, attic_ceiling(x)}, Label::ceiling);
         }
         for (double z = 0.5 * step; z < 0.9; z += step) {
-            add(0.0, y, z, Label::wall);
-            add(5.0, y, z, Label::wall);
+            attic.add({0.0, y, z}, Label::wall);
+            attic.add({5.0, y, z}, Label::wall);
         }
     }
     for (double x = 0.5 * step; x < 5.0; x += step) {
         for (double z = 0.5 * step; z < attic_ceiling(x); z += step) {
-            add(x, 0.0, z, Label::wall);
-            add(x, length, z, Label::wall);
+            attic.add({x, 0.0, z}, Label::wall);
+            attic.add({x, attic_length, z}, Label::wall);
         }
     }
-    const Interpretation result = interpret(std::move(cloud));
+    if (has_window) add_roof_window(attic, step);
+    return attic;
+}
+
+TEST(Interpretation, UnderARoofTheSlopesAreOneCeilingWithTheLevelPart) {
+    Attic attic = make_attic(false);
+    const Interpretation result = interpret(std::move(attic.cloud));
     EXPECT_GT(result.upright.up().z(), 0.99);
     EXPECT_EQ(count(result.surfaces, Label::ceiling), 1);
     EXPECT_EQ(count(result.surfaces, Label::wall), 4);
     for (const Label label : {Label::floor, Label::ceiling, Label::wall})
-        EXPECT_GT(iou(truth, result.labels.labels, label), 0.93) << label_name(label);
+        EXPECT_GT(iou(attic.truth, result.labels.labels, label), 0.93) << label_name(label);
     ASSERT_EQ(result.surfaces.rooms.size(), 1U);
     EXPECT_NEAR(result.surfaces.rooms[0].ceiling_height, 2.4, 0.02);
+    EXPECT_TRUE(result.openings.components.empty());
+}
+
+TEST(Interpretation, FindsAWindowInTheSlopeOfARoof) {
+    Attic attic = make_attic(true);
+    const Interpretation result = interpret(std::move(attic.cloud));
+    ASSERT_EQ(result.openings.components.size(), 2U);
+    const Component& window = result.openings.components[0];
+    EXPECT_EQ(window.label, Label::window);
+    EXPECT_EQ(window.parent, "ceiling-1");
+    const Eigen::Vector3d across = window.polygon[1] - window.polygon[0];
+    const Eigen::Vector3d upwards = window.polygon[3] - window.polygon[0];
+    EXPECT_NEAR(upwards.normalized().z(), std::sqrt(0.5), 0.01);
+    EXPECT_NEAR(across.z(), 0.0, 1e-3);
+    EXPECT_NEAR(result.openings.openings[0].frame_depth, 0.15, 0.02);
+    EXPECT_NEAR(result.openings.openings[0].hole.width(), 0.7, 0.06);
+    EXPECT_NEAR(result.openings.openings[0].hole.height(), 1.0, 0.06);
+    EXPECT_GT(iou(attic.truth, result.labels.labels, Label::window_frame), 0.6);
 }
 
 TEST(Interpretation, KeepsPointsWithoutPlaceUnknown) {

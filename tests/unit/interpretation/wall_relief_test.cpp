@@ -269,5 +269,51 @@ TEST(WallHoles, TellAFrameFromTheSidesOfANiche) {
     }
 }
 
+/// A frame returns every ray, a pane few; what fills a niche, all.
+TEST(WallHoles, TellPanesByTheFewRaysTheyReturn) {
+    for (const bool is_pane : {true, false}) {
+        WallRelief relief = hole_with([](double, double) { return 0.1; });
+        for (int row = 8; row < 18; ++row) {
+            for (int column = 17; column < 23; ++column)
+                relief.cells[relief.index(column, row)].recess = is_pane ? 1 : 4;
+        }
+        const std::vector<CellRectangle> holes = find_wall_holes(relief);
+        ASSERT_EQ(holes.size(), 1U);
+        EXPECT_EQ(look_into(relief, holes[0]).thinned, is_pane ? 0.25 : 1.0);
+    }
+}
+
+TEST(WallHoles, HaveTheirFrameBehindADeepReveal) {
+    const auto frame_behind = [](double reveal) {
+        const WallRelief relief = hole_with([=](double x, double z) {
+            if (x < 0.1 || x > 0.9 || z < 0.1 || z > 1.3) return 0.0;
+            return x > 0.2 && x < 0.8 && z > 0.2 && z < 1.2 ? 0.25 : reveal;
+        });
+        return look_into(relief, {15, 25, 6, 20}).frame_depth();
+    };
+    EXPECT_NEAR(frame_behind(0.05), 0.25, depth_bin);
+    EXPECT_NEAR(frame_behind(0.21), 0.21, depth_bin);  // a pane in its frame
+}
+
+TEST(WallHoles, EndWhereABlindBeforeTheWallDoes) {
+    WallRelief relief = hole_with([](double, double) { return 0.1; });
+    const CellRectangle hole = find_wall_holes(relief).at(0);
+    ASSERT_EQ(hole.high, 20);
+    EXPECT_EQ(top_of_blind(relief, hole), 20);
+    const auto hang = [&](int first, int last) {
+        for (int row = 20; row < 23; ++row) {
+            for (int column = first; column < last; ++column) {
+                ReliefCell& cell = relief.cells[relief.index(column, row)];
+                cell.near = 4;
+                cell.height = 4.0F * 0.05F;
+            }
+        }
+    };
+    hang(15, 25);
+    EXPECT_EQ(top_of_blind(relief, hole), 23);
+    hang(0, 40);  // a beam along the whole wall
+    EXPECT_EQ(top_of_blind(relief, hole), 20);
+}
+
 }  // namespace
 }  // namespace roomscribe

@@ -202,8 +202,8 @@ struct DoorEdges {
 /// Tells which edge of a door a point is beside.
 class DoorSurroundings {
   public:
-    DoorSurroundings(const WallOpening& opening, const WallFace& face, const Eigen::Vector3d& up)
-        : hole_(opening.hole), axes_(face, up) {}
+    DoorSurroundings(const WallOpening& opening, const RoomSurfaces& surfaces)
+        : hole_(opening.hole), axes_(face_of(opening, surfaces)) {}
 
     FacePlace place_of(const Eigen::Vector3f& point) const { return axes_.place_of(point); }
 
@@ -257,15 +257,14 @@ void move_edges(WallOpening& opening, const DoorEdges& edges) {
 }  // namespace
 
 void fit_door_sides(const PointCloud& map, const SurfaceSample& sample,
-                    const RoomSurfaces& surfaces, const Eigen::Vector3d& up,
-                    std::span<WallOpening> openings, const Context& context) {
+                    const RoomSurfaces& surfaces, std::span<WallOpening> openings,
+                    const Context& context) {
     std::vector<std::size_t> doors;
     std::vector<DoorSurroundings> places;
     for (std::size_t i = 0; i < openings.size(); ++i) {
         if (openings[i].type == OpeningType::window || openings[i].is_pane) continue;
         doors.push_back(i);
-        places.emplace_back(openings[i],
-                            surfaces.storeys[openings[i].storey].faces[openings[i].face], up);
+        places.emplace_back(openings[i], surfaces);
     }
     // The points in the voxels that any door reaches, in their order.
     const double reach = std::sqrt(3.0) * sample.voxel_size;

@@ -35,7 +35,7 @@ std::optional<DoorSide> read_door_side(std::span<const EdgePoint> points,
 /// Moves the edges of doors and passages to where they and their casings were seen at full density,
 /// from where the cells of the wall's relief put them.
 void fit_door_sides(const PointCloud& map, const SurfaceSample& sample,
-                    const RoomSurfaces& surfaces, const Eigen::Vector3d& up,
-                    std::span<WallOpening> openings, const Context& context = {});
+                    const RoomSurfaces& surfaces, std::span<WallOpening> openings,
+                    const Context& context = {});
 
 }  // namespace roomscribe

@@ -10,18 +10,18 @@ namespace roomscribe {
 /// Where a point lies by a wall's face.
 struct FacePlace {
     float along = 0.0F;  ///< m along the face's `along`
-    float above = 0.0F;  ///< m along up
+    float above = 0.0F;  ///< m along its `up`
     float depth = 0.0F;  ///< m behind the face
 };
 
 /// The axes of a wall's face, for many points: in float, as millimetres matter and micrometres not.
 class FaceAxes {
   public:
-    FaceAxes(const WallFace& face, const Eigen::Vector3d& up)
+    explicit FaceAxes(const WallFace& face)
         : normal_(face.plane.normal.cast<float>()),
           offset_(static_cast<float>(face.plane.offset)),
           along_(face.along.cast<float>()),
-          up_(up.cast<float>()) {}
+          up_(face.up.cast<float>()) {}
 
     FacePlace place_of(const Eigen::Vector3f& point) const {
         return {along_.dot(point), up_.dot(point), offset_ - normal_.dot(point)};

@@ -123,7 +123,7 @@ std::optional<double> OpenLeafFinder::closed_leaf_depth(const WallFace& face,
     const int columns = std::max(1, static_cast<int>(std::lround(hole.width() / cell)));
     const int rows = std::max(1, static_cast<int>(std::lround(hole.height() / cell)));
     std::array<std::vector<int>, num_depth_bins> cells;
-    const FaceAxes axes(face, up_);
+    const FaceAxes axes(face);
     for (const PlanarPatch& patch : patches_) {
         if (!is_upright(patch)) continue;
         if (std::abs(patch.plane.normal.dot(face.plane.normal)) < std::cos(max_turn)) continue;
@@ -163,7 +163,7 @@ std::optional<double> OpenLeafFinder::lining_depth(const WallFace& face, const W
     std::array<std::vector<bool>, 2> is_lined;
     for (std::vector<bool>& side : is_lined)
         side.resize(num_steps);
-    const FaceAxes axes(face, up_);
+    const FaceAxes axes(face);
     for (const Eigen::Vector3f& position : sample_.cloud.positions) {
         const FacePlace at = axes.place_of(position);
         if (at.depth < 0.0F || at.above < hole.bottom + from_rims ||

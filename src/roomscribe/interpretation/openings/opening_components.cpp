@@ -16,15 +16,17 @@ using Eigen::Vector3d;
 /// The components of the openings, and the rooms that they lead to.
 class ComponentBuilder {
   public:
-    ComponentBuilder(RoomSurfaces& surfaces, const Vector3d& up) : surfaces_(surfaces), up_(up) {
+    explicit ComponentBuilder(RoomSurfaces& surfaces) : surfaces_(surfaces) {
         for (const RoomSurface& surface : surfaces.surfaces)
             next_instance_ = std::max(next_instance_, surface.component.instance + 1);
     }
 
     void add(WallOpening& opening, std::vector<Component>& components) {
         const StoreyLayout& layout = surfaces_.storeys[opening.storey];
-        const WallFace& face = layout.faces[opening.face];
-        const std::string wall = surfaces_.surfaces[layout.wall_of_face[opening.face]].component.id;
+        const WallFace& face = face_of(opening, surfaces_);
+        const std::size_t surface = opening.is_in_roof ? layout.ceiling_of_slope[opening.face]
+                                                       : layout.wall_of_face[opening.face];
+        const std::string wall = surfaces_.surfaces[surface].component.id;
         const auto push = [&](Label label, const WallRectangle& rectangle, double depth) {
             Component component;
             component.label = label;
@@ -36,7 +38,7 @@ class ComponentBuilder {
             component.parent = wall;
             const Vector3d on_plane = (face.plane.offset - depth) * face.plane.normal;
             const auto corner = [&](double along, double height) -> Vector3d {
-                return on_plane + along * face.along + height * up_;
+                return on_plane + along * face.along + height * face.up;
             };
             component.polygon = {
                 corner(rectangle.start, rectangle.bottom), corner(rectangle.end, rectangle.bottom),
@@ -80,7 +82,6 @@ class ComponentBuilder {
     }
 
     RoomSurfaces& surfaces_;
-    Vector3d up_;
     std::int32_t next_instance_ = 0;
     std::array<int, num_labels> counts_{};
 };
@@ -88,9 +89,9 @@ class ComponentBuilder {
 }  // namespace
 
 std::vector<Component> make_opening_components(std::span<WallOpening> openings,
-                                               RoomSurfaces& surfaces, const Vector3d& up) {
+                                               RoomSurfaces& surfaces) {
     std::vector<Component> components;
-    ComponentBuilder builder(surfaces, up);
+    ComponentBuilder builder(surfaces);
     for (WallOpening& opening : openings)
         builder.add(opening, components);
     return components;

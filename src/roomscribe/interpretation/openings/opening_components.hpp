@@ -12,8 +12,8 @@ namespace roomscribe {
 
 /// The components of openings, door and window before their frames, with instances counted on from
 /// the surfaces'; each opening learns the numbers of its own. Rooms that a door connects
-/// become neighbours. `up` is a unit vector in the map frame.
+/// become neighbours.
 std::vector<Component> make_opening_components(std::span<WallOpening> openings,
-                                               RoomSurfaces& surfaces, const Eigen::Vector3d& up);
+                                               RoomSurfaces& surfaces);
 
 }  // namespace roomscribe

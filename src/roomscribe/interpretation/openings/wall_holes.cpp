@@ -442,6 +442,13 @@ HoleEvidence look_into(const WallRelief& relief, const CellRectangle& hole) {
     return evidence;
 }
 
+double HoleEvidence::frame_depth() const {
+    const double side = depths.rim.value_or(depth);
+    // No frame lies behind its pane: of few points, most may have passed beside it. And no pane
+    // lies so far behind its frame: along the sides a deep reveal was seen.
+    return sunk() < 0.0 ? std::min(side, depth) : depth > side + most_sinking ? depth : side;
+}
+
 bool is_framed_by_wall(const HoleEvidence& evidence, bool stands_on_floor) {
     constexpr double min_wall = 0.5;
     int num_walls = 0;

@@ -47,7 +47,7 @@ struct HoleEvidence {
     /// By how much cells without a return are more frequent among the open ones, as panes leave
     /// them, than in the wall around.
     double lost = 0.0;
-    /// Rays to a cell of its middle, in those to a cell along its sides.
+    /// Rays that meet a cell of its middle, in those that meet one along its sides.
     double thinned = 1.0;
     HoleDepths depths;
 
@@ -56,6 +56,8 @@ struct HoleEvidence {
     }
     /// m, by how much the middle lies deeper than the sides.
     double sunk() const { return depths.rim && depths.middle ? *depths.middle - *depths.rim : 0.0; }
+    /// m, of a window's frame.
+    double frame_depth() const;
 };
 
 /// The holes of a wall's face: of each group of open cells the rectangle that holds the most of
@@ -67,6 +69,9 @@ HoleEvidence look_into(const WallRelief& relief, const CellRectangle& hole);
 
 /// Whether wall was seen on three sides, or two of a hole on the floor, and nothing else on any.
 bool is_framed_by_wall(const HoleEvidence& evidence, bool stands_on_floor);
+
+/// m. Panes sit 12 to 90 mm behind the front of sash and frame (profiles of 58 to 92 mm).
+inline constexpr double most_sinking = 0.1;
 
 /// Least share `framed` of windows.
 inline constexpr double min_framed = 0.25;

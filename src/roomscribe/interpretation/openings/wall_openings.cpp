@@ -40,6 +40,8 @@ constexpr double unglazed = 0.1;
 /// window for it alone: panes fill more than half of a French window. Dark or glancing leaves lose
 /// some, too.
 constexpr double pane_lost = 0.25;
+/// m, of points on a wall's face: frames and leaves lie deeper.
+constexpr double max_tolerance = 0.06;
 /// m. Casings are no wider than two cells of this.
 constexpr double flat_door_cell = 0.05;
 /// Shares of a hole: of rays that never came back, and of those that passed, which glass needs.
@@ -59,19 +61,22 @@ constexpr double usual_thickness = 0.12;
 /// m. uPVC frame and sash together show 100 to 120 mm, fixed lights 50 to 70 mm.
 constexpr double usual_window_frame = 0.08;
 
+/// One of which no more is known than where it is looked for.
+WallOpening opening_in(std::size_t storey, std::size_t face, bool is_in_roof = false) {
+    WallOpening opening;
+    opening.storey = storey;
+    opening.face = face;
+    opening.is_in_roof = is_in_roof;
+    return opening;
+}
+
 /// A window's pane lies in its frame, deeper than the frame's front.
 void set_depths(WallOpening& opening, const HoleEvidence& evidence) {
     constexpr double usual_sinking = 0.035;
-    constexpr double most_sinking = 0.1;
     const double sunk = evidence.sunk();
-    double frame_depth = evidence.depths.rim.value_or(evidence.depth);
-    // No frame lies behind its pane: of few points, most may have passed beside it. And no pane
-    // lies so far behind its frame: along the sides a deep reveal was seen.
-    if (sunk < 0.0) frame_depth = std::min(frame_depth, evidence.depth);
-    const bool is_reveal = evidence.depth > frame_depth + most_sinking;
-    opening.frame_depth = is_reveal ? evidence.depth : frame_depth;
-    const bool is_told = !is_reveal && sunk > 0.01 && sunk < most_sinking;
-    opening.depth = opening.frame_depth + (is_told ? sunk : usual_sinking);
+    opening.frame_depth = evidence.frame_depth();
+    opening.depth =
+        opening.frame_depth + (sunk > 0.01 && sunk < most_sinking ? sunk : usual_sinking);
 }
 
 /// Whether enough was seen of a hole to say what it is.
@@ -158,11 +163,13 @@ class OpeningFinder {
           leaves_(sample, patches, up_) {}
 
     OpenedWall look_at(std::size_t storey, std::size_t face) const;
+    OpenedWall look_at_slope(std::size_t storey, std::size_t slope) const;
 
   private:
     const StoreyLayout& layout(std::size_t storey) const { return surfaces_.storeys[storey]; }
-    std::optional<WallOpening> judge(std::size_t storey, std::size_t face, const WallRelief& relief,
-                                     const CellRectangle& hole) const;
+    std::vector<WallOpening> judge_holes(const WallOpening& place, const WallRelief& relief) const;
+    std::optional<WallOpening> judge(WallOpening opening, const WallRelief& relief,
+                                     const CellRectangle& cells) const;
     void judge_way(const HoleEvidence& evidence, const HoleSigns& signs, const WallRelief& relief,
                    const CellRectangle& cells, WallOpening& opening) const;
     void judge_open_way(WallOpening& opening) const;
@@ -175,8 +182,8 @@ class OpeningFinder {
                            const WallRectangle& hole) const;
     bool is_mirror(const WallFace& face, const WallRectangle& hole) const {
         constexpr double min_share = 0.5;
-        return mirror_test_.share_of_images({face.plane, face.along, up_, hole}, max_wall_depth) >=
-               min_share;
+        return mirror_test_.share_of_images({face.plane, face.along, face.up, hole},
+                                            max_wall_depth) >= min_share;
     }
     WallFace reach_to_corners(const StoreyLayout& rooms, const WallFace& face) const;
     std::optional<double> thickness_at(const StoreyLayout& layout, const WallFace& face,
@@ -184,7 +191,7 @@ class OpeningFinder {
     void add_flat_doors(std::size_t storey, std::size_t face, const WallRelief& relief,
                         std::vector<WallOpening>& openings) const;
     Vector3d place(const WallFace& face, double along, double up) const {
-        return face.plane.offset * face.plane.normal + along * face.along + up * up_;
+        return face.plane.offset * face.plane.normal + along * face.along + up * face.up;
     }
 
     const ScanMap& map_;
@@ -331,8 +338,8 @@ bool OpeningFinder::judge_window(const HoleEvidence& evidence, const HoleSigns& 
     const bool may_be_mirror = !signs.shows_outdoors && evidence.through_share >= min_through;
     if (!signs.is_guess && !signs.shows_outdoors && evidence.framed < min_framed) return false;
     const StoreyLayout& rooms = layout(opening.storey);
-    const WallFace& face = rooms.faces[opening.face];
-    if ((signs.is_guess || may_be_mirror) &&
+    const WallFace& face = face_of(opening, surfaces_);
+    if (!opening.is_in_roof && (signs.is_guess || may_be_mirror) &&
         (is_indoors_behind(rooms, face, hole) || is_mirror(face, hole))) {
         return false;
     }
@@ -342,31 +349,35 @@ bool OpeningFinder::judge_window(const HoleEvidence& evidence, const HoleSigns& 
     opening.hole.top += relief.cell_size * (top_of_blind(relief, cells) - cells.high);
     set_depths(opening, evidence);
     opening.frame_width = measure_frame(relief, cells).value_or(usual_window_frame);
-    opening.rule = is_glazed ? "glazed hole in the wall, above the floor"
-                             : "hole in the wall like a window of the same storey";
+    opening.rule = opening.is_in_roof ? "glazed hole in the slope of a roof"
+                   : is_glazed        ? "glazed hole in the wall, above the floor"
+                                      : "hole in the wall like a window of the same storey";
     opening.confidence = is_glazed ? 0.85 : unglazed;
     return true;
 }
 
-std::optional<WallOpening> OpeningFinder::judge(std::size_t storey, std::size_t number,
-                                                const WallRelief& relief,
+/// `opening` says in which face.
+std::optional<WallOpening> OpeningFinder::judge(WallOpening opening, const WallRelief& relief,
                                                 const CellRectangle& cells) const {
-    const StoreyLayout& rooms = layout(storey);
-    const WallFace& face = rooms.faces[number];
+    const StoreyLayout& rooms = layout(opening.storey);
+    const WallFace& face = face_of(opening, surfaces_);
     const HoleEvidence evidence = look_into(relief, cells);
     if (!is_seen_enough(evidence)) return std::nullopt;
-    WallOpening opening;
-    opening.storey = storey;
-    opening.face = number;
     opening.hole = measure_edges(relief, cells);
     opening.coverage = evidence.seen;
     opening.hidden = evidence.hidden;
     WallRectangle& hole = opening.hole;
-    const HoleSigns signs = read_signs(evidence, relief, hole.bottom - rooms.floor_height);
+    const double bottom =
+        opening.is_in_roof ? up_.dot(place(face, hole.start, hole.bottom)) : hole.bottom;
+    const HoleSigns signs = read_signs(evidence, relief, bottom - rooms.floor_height);
     if (!is_framed_by_wall(evidence, signs.above_floor <= max_rail)) return std::nullopt;
     // Without rays a hole is told from wall that nobody looked at by its lining.
     constexpr double min_lining = 0.5;
     if (signs.is_guess && evidence.lining < min_lining) return std::nullopt;
+    if (opening.is_in_roof) {
+        if (!judge_window(evidence, signs, relief, cells, opening)) return std::nullopt;
+        return opening;
+    }
     opening.room_behind = room_behind(rooms, face, hole);
     if (signs.is_on_floor) {
         leaves_.widen_to_hinge(face, hole);
@@ -381,7 +392,8 @@ std::optional<WallOpening> OpeningFinder::judge(std::size_t storey, std::size_t 
     if (signs.above_floor <= max_rail && hole.height() >= min_glazing_height &&
         hole.top + usual_rail <= rooms.floor_height + max_door_height &&
         hole.width() >= min_glazing_width && hole.width() <= max_leaf_width &&
-        ((!signs.shows_outdoors && is_indoors_behind(rooms, face, hole)) ||
+        (opening.room_behind != no_room ||
+         (!signs.shows_outdoors && is_indoors_behind(rooms, face, hole)) ||
          (is_flush_pane(evidence) && !is_mirror(face, hole)))) {
         make_glazed_door(rooms.floor_height, opening);
         return opening;
@@ -466,6 +478,23 @@ WallFace OpeningFinder::reach_to_corners(const StoreyLayout& rooms, const WallFa
     return whole;
 }
 
+std::vector<WallOpening> OpeningFinder::judge_holes(const WallOpening& place,
+                                                    const WallRelief& relief) const {
+    std::vector<WallOpening> openings;
+    for (const CellRectangle& hole : find_wall_holes(relief)) {
+        if (auto opening = judge(place, relief, hole)) openings.push_back(std::move(*opening));
+    }
+    return openings;
+}
+
+OpenedWall OpeningFinder::look_at_slope(std::size_t storey, std::size_t number) const {
+    const WallFace& face = layout(storey).slopes[number];
+    const double tolerance = std::max(sample_.tolerance, 2.0 * face.rms);
+    const WallRelief relief = measure_wall_relief(map_, face, face.up, face.bottom, face.top,
+                                                  std::min(tolerance, max_tolerance), cell_size_);
+    return {judge_holes(opening_in(storey, number, true), relief), {}};
+}
+
 OpenedWall OpeningFinder::look_at(std::size_t storey, std::size_t number) const {
     const StoreyLayout& rooms = layout(storey);
     const WallFace& seen = rooms.faces[number];
@@ -474,12 +503,8 @@ OpenedWall OpeningFinder::look_at(std::size_t storey, std::size_t number) const 
     const double top = room.ceiling_height.value_or(face.top);
     const double tolerance = std::max(sample_.tolerance, 2.0 * face.rms);
     const WallRelief relief = measure_wall_relief(map_, face, up_, rooms.floor_height, top,
-                                                  std::min(tolerance, 0.06), cell_size_);
-    std::vector<WallOpening> openings;
-    for (const CellRectangle& hole : find_wall_holes(relief)) {
-        if (auto opening = judge(storey, number, relief, hole))
-            openings.push_back(std::move(*opening));
-    }
+                                                  std::min(tolerance, max_tolerance), cell_size_);
+    std::vector<WallOpening> openings = judge_holes(opening_in(storey, number), relief);
     join_panes(openings);
     const int first = static_cast<int>(std::lround((seen.start - face.start) / cell_size_));
     const int count = static_cast<int>(std::ceil(seen.width() / cell_size_));
@@ -490,7 +515,7 @@ OpenedWall OpeningFinder::look_at(std::size_t storey, std::size_t number) const 
     } else {
         add_flat_doors(storey, number,
                        measure_wall_relief(map_, seen, up_, rooms.floor_height, top,
-                                           std::min(tolerance, 0.06), flat_door_cell),
+                                           std::min(tolerance, max_tolerance), flat_door_cell),
                        openings);
     }
     return {std::move(openings), hidden_share(of_seen)};
@@ -505,7 +530,7 @@ void drop_niches(std::vector<WallOpening>& openings) {
         return opening.confidence <= unglazed &&
                std::none_of(all.begin(), all.end(), [&](const WallOpening& other) {
                    return other.type == OpeningType::window && other.storey == opening.storey &&
-                          other.confidence > unglazed &&
+                          other.is_in_roof == opening.is_in_roof && other.confidence > unglazed &&
                           std::abs(other.hole.bottom - opening.hole.bottom) <= alike &&
                           std::abs(other.hole.top - opening.hole.top) <= alike;
                });
@@ -517,9 +542,10 @@ void drop_niches(std::vector<WallOpening>& openings) {
 
 /// Whether two openings are the two sides of one.
 bool is_same(const WallOpening& a, const WallOpening& b, const RoomSurfaces& surfaces) {
-    if (a.storey != b.storey || a.face == b.face) return false;
-    const WallFace& face = surfaces.storeys[a.storey].faces[a.face];
-    const WallFace& other = surfaces.storeys[b.storey].faces[b.face];
+    if (a.storey != b.storey) return false;
+    const WallFace& face = face_of(a, surfaces);
+    const WallFace& other = face_of(b, surfaces);
+    if (&face == &other) return false;
     if (std::abs(face.plane.normal.dot(other.plane.normal)) < std::cos(radians(15.0))) return false;
     const Vector3d middle =
         other.plane.offset * other.plane.normal + 0.5 * (b.hole.start + b.hole.end) * other.along;
@@ -546,21 +572,26 @@ Openings find_openings(const ScanMap& map, std::span<const Ray> rays, const Surf
                        const Eigen::Matrix3d& room_from_map, double point_spacing,
                        const Context& context) {
     const OpeningFinder finder(map, rays, sample, patches, surfaces, room_from_map, point_spacing);
-    std::vector<std::pair<std::size_t, std::size_t>> jobs;
+    std::vector<WallOpening> jobs;
     for (std::size_t storey = 0; storey < surfaces.storeys.size(); ++storey) {
         for (std::size_t face = 0; face < surfaces.storeys[storey].faces.size(); ++face)
-            jobs.emplace_back(storey, face);
+            jobs.push_back(opening_in(storey, face));
+        for (std::size_t slope = 0; slope < surfaces.storeys[storey].slopes.size(); ++slope)
+            jobs.push_back(opening_in(storey, slope, true));
     }
     std::vector<OpenedWall> found(jobs.size());
     parallel_for(context, jobs.size(), 1, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i)
-            found[i] = finder.look_at(jobs[i].first, jobs[i].second);
+        for (std::size_t i = begin; i < end; ++i) {
+            found[i] = jobs[i].is_in_roof ? finder.look_at_slope(jobs[i].storey, jobs[i].face)
+                                          : finder.look_at(jobs[i].storey, jobs[i].face);
+        }
     });
     std::vector<WallOpening> sides;
     for (std::size_t i = 0; i < jobs.size(); ++i) {
-        const auto [storey, face] = jobs[i];
-        const std::size_t wall = surfaces.storeys[storey].wall_of_face[face];
-        surfaces.surfaces[wall].component.evidence.occluded = found[i].hidden;
+        if (!jobs[i].is_in_roof) {
+            const std::size_t wall = surfaces.storeys[jobs[i].storey].wall_of_face[jobs[i].face];
+            surfaces.surfaces[wall].component.evidence.occluded = found[i].hidden;
+        }
         std::move(found[i].openings.begin(), found[i].openings.end(), std::back_inserter(sides));
     }
     std::stable_sort(sides.begin(), sides.end(), [](const WallOpening& a, const WallOpening& b) {
@@ -574,10 +605,8 @@ Openings find_openings(const ScanMap& map, std::span<const Ray> rays, const Surf
                         [&](const WallOpening& known) { return is_same(known, side, surfaces); });
         if (!is_known) result.openings.push_back(std::move(side));
     }
-    fit_door_sides(map.cloud, sample, surfaces, room_from_map.row(2).transpose(), result.openings,
-                   context);
-    result.components =
-        make_opening_components(result.openings, surfaces, room_from_map.row(2).transpose());
+    fit_door_sides(map.cloud, sample, surfaces, result.openings, context);
+    result.components = make_opening_components(result.openings, surfaces);
     return result;
 }
 

@@ -28,8 +28,9 @@ enum class OpeningType : std::uint8_t {
 /// A hole in a wall, and what fills it.
 struct WallOpening {
     OpeningType type = OpeningType::door;
-    std::size_t face = 0;      ///< of the storey's faces
+    std::size_t face = 0;      ///< of the storey's faces, or its slopes
     std::size_t storey = 0;    ///< of RoomSurfaces::storeys
+    bool is_in_roof = false;   ///< in a slope
     WallRectangle hole;        ///< a door's leaf, or a window's hole
     double depth = 0.0;        ///< m behind the face, of leaf or pane; < 0: before it
     double frame_depth = 0.0;  ///< m behind the face, of a window's frame and mullions
@@ -47,6 +48,12 @@ struct WallOpening {
     std::vector<std::size_t> components;
 };
 
+/// The face of a wall, or the slope of a roof, that an opening is set in.
+inline const WallFace& face_of(const WallOpening& opening, const RoomSurfaces& surfaces) {
+    const StoreyLayout& layout = surfaces.storeys[opening.storey];
+    return opening.is_in_roof ? layout.slopes[opening.face] : layout.faces[opening.face];
+}
+
 struct Openings {
     std::vector<WallOpening> openings;
     std::vector<Component> components;
@@ -62,8 +69,9 @@ struct Openings {
 /// single leaf, and a doubtful door if not. Wall below a hole is a sill. A hole above the floor
 /// that shows signs of glass, or is like one that does, is a window, but for mirrors, which `rays`
 /// tell (MirrorTest). Closed leaves nearly in the plane of their wall are found by find_flat_doors.
-/// What opens to both sides of a wall is one opening. Instances are counted on from `surfaces`,
-/// whose rooms learn their neighbours and whose walls learn how much of them is hidden.
+/// What opens to both sides of a wall is one opening. A roof's slopes are looked at for windows
+/// alone. Instances are counted on from `surfaces`, whose rooms learn their neighbours and whose
+/// walls learn how much of them is hidden.
 Openings find_openings(const ScanMap& map, std::span<const Ray> rays, const SurfaceSample& sample,
                        std::span<const PlanarPatch> patches, RoomSurfaces& surfaces,
                        const Eigen::Matrix3d& room_from_map, double point_spacing,

@@ -6,6 +6,8 @@
 #include <cstddef>
 #include <optional>
 
+#include "roomscribe/interpretation/openings/wall_holes.hpp"
+
 namespace roomscribe {
 namespace {
 
@@ -13,9 +15,8 @@ namespace {
 constexpr double ring_start = 0.02;
 constexpr double ring_end = 0.07;
 constexpr double widest_frame = 0.12;
-/// m. Panes sit 12 to 90 mm behind the front of sash and frame (profiles of 58 to 92 mm).
+/// m. Panes sit at least 12 mm behind the front of sash and frame.
 constexpr double least_sinking = 0.01;
-constexpr double most_sinking = 0.1;
 /// Fewer points are no layer.
 constexpr std::size_t min_layer = 12;
 /// Standard deviations to both sides of a layer.

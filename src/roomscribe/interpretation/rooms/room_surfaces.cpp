@@ -67,8 +67,9 @@ class SurfaceBuilder {
                                                       const FloorPlan& plan) const;
     void add_level(const LevelPiece& piece, Label label, const Storey& storey,
                    const std::string& parent, const Outline& outline);
-    void add_sloping_ceiling(std::uint32_t patch, const Storey& storey, const FloorPlan& plan,
-                             std::span<const std::string> room_ids);
+    void add_sloping_ceiling(std::uint32_t patch, const Storey& storey, StoreyLayout& layout);
+    WallFace slope_face(const PlanarPatch& slope, std::int32_t room,
+                        std::vector<std::uint32_t> voxels) const;
     void add_wall(const WallFace& face, const Storey& storey, const std::string& parent,
                   std::optional<double> ceiling);
 
@@ -173,12 +174,34 @@ void SurfaceBuilder::add_level(const LevelPiece& piece, Label label, const Store
     surfaces_.push_back(std::move(surface));
 }
 
+/// What of a slope lies over one room, as the face that windows may be set in.
+WallFace SurfaceBuilder::slope_face(const PlanarPatch& slope, std::int32_t room,
+                                    std::vector<std::uint32_t> voxels) const {
+    WallFace face;
+    face.room = room;
+    face.plane = slope.plane.normal.dot(up_) > 0.0 ? slope.plane.flipped() : slope.plane;
+    face.along = up_.cross(face.plane.normal).normalized();
+    face.up = face.plane.normal.cross(face.along);
+    face.start = face.bottom = std::numeric_limits<double>::infinity();
+    face.end = face.top = -face.start;
+    face.rms = slope.rms;
+    for (const std::uint32_t voxel : voxels) {
+        const Eigen::Vector3d position = sample_.cloud.positions[voxel].cast<double>();
+        face.start = std::min(face.start, position.dot(face.along));
+        face.end = std::max(face.end, position.dot(face.along));
+        face.bottom = std::min(face.bottom, position.dot(face.up));
+        face.top = std::max(face.top, position.dot(face.up));
+    }
+    face.voxels = std::move(voxels);
+    return face;
+}
+
 /// A part of the ceiling of each room that it lies over: a room has one. Outside of all rooms it is
 /// a roof or a reflection, if it is known where the scanners stood; else it may be over what nobody
 /// drew, as behind cupboards.
 void SurfaceBuilder::add_sloping_ceiling(std::uint32_t patch, const Storey& storey,
-                                         const FloorPlan& plan,
-                                         std::span<const std::string> room_ids) {
+                                         StoreyLayout& layout) {
+    const FloorPlan& plan = layout.plan;
     const PlanarPatch& slope = patches_[patch];
     std::map<std::int32_t, std::vector<std::uint32_t>> by_room;
     for (const std::uint32_t voxel : slope.points) {
@@ -190,18 +213,26 @@ void SurfaceBuilder::add_sloping_ceiling(std::uint32_t patch, const Storey& stor
     for (auto& [room, voxels] : by_room) {
         const bool is_large = 2 * voxels.size() > slope.points.size();
         if (room == no_room && (knows_rooms || !is_large)) continue;
-        const std::string id = room == no_room ? "" : room_ids[static_cast<std::size_t>(room)];
+        const std::string id =
+            room == no_room ? "" : layout.room_ids[static_cast<std::size_t>(room)];
         const auto ceiling =
             std::find_if(surfaces_.begin(), surfaces_.end(), [&](const RoomSurface& surface) {
                 return surface.component.label == Label::ceiling &&
                        surface.component.parent == id && !id.empty();
             });
         if (ceiling != surfaces_.end()) {
+            layout.slopes.push_back(slope_face(slope, room, voxels));
+            layout.ceiling_of_slope.push_back(
+                static_cast<std::size_t>(ceiling - surfaces_.begin()));
             ceiling->voxels.insert(ceiling->voxels.end(), voxels.begin(), voxels.end());
             ceiling->component.evidence.points = ceiling->voxels.size();
             continue;
         }
         if (!is_large) continue;
+        if (room != no_room) {
+            layout.slopes.push_back(slope_face(slope, room, voxels));
+            layout.ceiling_of_slope.push_back(surfaces_.size());
+        }
         add_level({slope.centroid.dot(up_), voxels.size(), std::move(voxels)}, Label::ceiling,
                   storey, id, {});
         RoomSurface& surface = surfaces_.back();
@@ -295,7 +326,7 @@ void SurfaceBuilder::add_storey(const Storey& storey, StoreyLayout& layout) {
         rooms_.push_back(std::move(room));
     }
     for (const std::uint32_t patch : storey.sloping_ceilings)
-        add_sloping_ceiling(patch, storey, plan, layout.room_ids);
+        add_sloping_ceiling(patch, storey, layout);
 }
 
 /// Whether next to nothing was seen above a patch, as is so of ceilings under a roof, but not of

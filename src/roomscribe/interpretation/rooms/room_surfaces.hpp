@@ -30,9 +30,11 @@ struct RoomSurface {
 struct StoreyLayout {
     FloorPlan plan;
     std::vector<WallFace> faces;
-    std::vector<std::size_t> wall_of_face;  ///< numbers in RoomSurfaces::surfaces
-    std::vector<std::string> room_ids;      ///< of the plan's rooms
-    double floor_height = 0.0;              ///< m along up
+    std::vector<std::size_t> wall_of_face;      ///< numbers in RoomSurfaces::surfaces
+    std::vector<WallFace> slopes;               ///< of the roof over its rooms
+    std::vector<std::size_t> ceiling_of_slope;  ///< numbers in RoomSurfaces::surfaces
+    std::vector<std::string> room_ids;          ///< of the plan's rooms
+    double floor_height = 0.0;                  ///< m along up
 };
 
 struct RoomSurfaces {

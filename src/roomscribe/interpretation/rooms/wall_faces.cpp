@@ -171,6 +171,7 @@ void FaceFinder::split(std::int32_t room, const Plane& plane, double rms,
         face.room = room;
         face.plane = plane;
         face.along = up_.cross(plane.normal);
+        face.up = up_;
         face.rms = rms;
         std::vector<double> heights;
         std::vector<double> places;

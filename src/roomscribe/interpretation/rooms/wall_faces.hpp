@@ -15,14 +15,15 @@ namespace roomscribe {
 /// 18202, table 3, line 7: 3 mm).
 inline constexpr double least_wall_step = 0.006;
 
-/// One face of a wall in one room.
+/// One face of a wall in one room, or of a roof's slope.
 struct WallFace {
     std::int32_t room = no_room;
-    Plane plane;            ///< upright; the normal looks into the room
+    Plane plane;            ///< upright, or a slope; the normal looks into the room
     Eigen::Vector3d along;  ///< level, within the plane: up x normal
-    double start = 0.0;     ///< m along `along`, of what was seen
+    Eigen::Vector3d up = Eigen::Vector3d::UnitZ();  ///< upwards, within the plane
+    double start = 0.0;                             ///< m along `along`, of what was seen
     double end = 0.0;
-    double bottom = 0.0;  ///< m along up, of what was seen
+    double bottom = 0.0;  ///< m along `up`, of what was seen
     double top = 0.0;
     double area = 0.0;  ///< m2, of what was seen
     double rms = 0.0;
