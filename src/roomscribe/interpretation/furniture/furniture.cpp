@@ -11,6 +11,7 @@
 
 #include "roomscribe/interpretation/furniture/furniture_voxels.hpp"
 #include "roomscribe/interpretation/furniture/level_slabs.hpp"
+#include "roomscribe/interpretation/furniture/pedestals.hpp"
 #include "roomscribe/interpretation/furniture/piece_backs.hpp"
 #include "roomscribe/interpretation/furniture/piece_drafts.hpp"
 #include "roomscribe/interpretation/furniture/piece_faces.hpp"
@@ -364,6 +365,7 @@ Furniture find_furniture(const ScanMap& map, const SurfaceSample& sample,
     const std::vector<LevelSlab> slabs = find_level_slabs(all, sample.voxel_size);
     for (PieceDraft& draft : draft_pieces(all, slabs))
         drafts.push_back(std::move(draft));
+    part_pedestals(all, slabs, drafts);
     context.throw_if_cancelled();
     join_worktop_rows(all, slabs, surfaces, drafts);
     add_backs(all, surfaces, drafts);
