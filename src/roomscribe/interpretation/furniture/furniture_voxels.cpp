@@ -218,7 +218,8 @@ FurnitureVoxels gather_furniture_voxels(const SurfaceSample& sample,
     find_neighbors(all, context);
     for (std::uint32_t i = 0; i < all.voxels.size(); ++i) {
         FurnitureVoxel& voxel = all.voxels[i];
-        voxel.is_core = voxel.is_core && all.neighbors_of(i).size() >= min_core_neighbors;
+        voxel.is_stray = voxel.is_core && all.neighbors_of(i).size() < min_core_neighbors;
+        voxel.is_core = voxel.is_core && !voxel.is_stray;
     }
     return all;
 }

@@ -20,9 +20,9 @@ namespace {
 constexpr double max_top = 0.85;
 /// m: pedestals are 0.40 to 0.43 wide and 0.52 to 0.65 high, on castors of 5 cm and more; the front
 /// may end a plate's thickness lower, and what lies lower than 0.2 may be hidden.
-constexpr double min_width = 0.36;
+constexpr double min_width = 0.38;
 constexpr double max_width = 0.5;
-constexpr double min_front_top = 0.5;
+constexpr double min_front_top = 0.52;
 constexpr double max_front_bottom = 0.2;
 /// m: of pedestals for desks 0.7 and 0.8 deep; deeper ones stand beside.
 constexpr double max_depth = 0.62;
@@ -79,8 +79,8 @@ std::optional<PedestalFront> as_front(const FurnitureVoxels& all,
     constexpr double parallel = 0.95;
     if (std::abs(front.outward.dot(slab.rectangle.across())) < parallel) return std::nullopt;
     const double inset = 0.5 * slab.rectangle.width - front.outward.dot(from_middle);
-    // What is nearly as long as the top is a chest's front.
-    constexpr double max_share = 0.6;
+    // Knees have the larger share of what is below a top.
+    constexpr double max_share = 0.5;
     if (inset > max_inset || width > max_share * slab.rectangle.length) return std::nullopt;
     return front;
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <map>
 #include <utility>
 
 #include "roomscribe/core/disjoint_sets.hpp"
@@ -301,6 +302,14 @@ class Claims {
         return best;
     }
 
+    /// Whether a voxel lies within the rectangle of one of a group's slabs.
+    bool holds(std::size_t group, const FurnitureVoxel& voxel) const {
+        const std::vector<std::size_t>& members = groups_.members[group];
+        return std::any_of(members.begin(), members.end(), [&](std::size_t slab) {
+            return slabs_[slab].rectangle.distance(voxel.place.head<2>()) <= 0.0;
+        });
+    }
+
     /// Near a group that is no lower than `top`.
     bool is_beside(const FurnitureVoxel& voxel, double top,
                    std::span<const std::size_t> groups) const {
@@ -365,6 +374,33 @@ std::vector<std::vector<std::uint32_t>> find_clusters(const FurnitureVoxels& all
     for (std::vector<std::uint32_t>& cluster : clusters)
         std::sort(cluster.begin(), cluster.end());
     return clusters;
+}
+
+/// What was seen so sparsely that it hangs together with nothing goes to the slab that claims it
+/// within its rectangle: far from a scanner its rays are farther apart than voxels reach.
+void claim_strays(const FurnitureVoxels& all, std::span<const LevelSlab> slabs,
+                  const SlabGroups& groups, const Claims& claims,
+                  std::vector<std::size_t>& group_of_voxel) {
+    using Room = std::pair<std::uint32_t, std::int32_t>;
+    std::vector<bool> is_drafted(groups.members.size(), false);
+    for (const std::size_t group : group_of_voxel) {
+        if (group != none) is_drafted[group] = true;
+    }
+    std::map<Room, std::vector<std::size_t>> groups_of_room;
+    for (std::size_t group = 0; group < groups.members.size(); ++group) {
+        if (!is_drafted[group]) continue;
+        const LevelSlab& slab = slabs[groups.members[group].front()];
+        const FurnitureVoxel& some = all.voxels[slab.voxels.front()];
+        groups_of_room[{some.storey, some.room}].push_back(group);
+    }
+    for (std::uint32_t i = 0; i < all.voxels.size(); ++i) {
+        const FurnitureVoxel& voxel = all.voxels[i];
+        if (!voxel.is_stray || group_of_voxel[i] != none) continue;
+        const auto here = groups_of_room.find({voxel.storey, voxel.room});
+        if (here == groups_of_room.end()) continue;
+        const std::size_t group = claims.group_of(voxel, here->second);
+        if (group != none && claims.holds(group, voxel)) group_of_voxel[i] = group;
+    }
 }
 
 /// Sides, open doors and drawers' fronts: thin, beside a piece and no taller.
@@ -499,6 +535,7 @@ std::vector<PieceDraft> draft_pieces(const FurnitureVoxels& all, std::span<const
         }
         draft_rest(all, cluster, is_rest, present, claims, group_of_voxel, rests);
     }
+    claim_strays(all, slabs, groups, claims, group_of_voxel);
     drop_beside_stools(all, slabs, groups, group_of_voxel);
     std::vector<PieceDraft> drafts(groups.members.size());
     for (std::size_t group = 0; group < drafts.size(); ++group)

@@ -8,7 +8,10 @@
 #include <utility>
 #include <vector>
 
+#include <Eigen/Geometry>
+
 #include "roomscribe/core/quantile.hpp"
+#include "roomscribe/core/units.hpp"
 #include "roomscribe/interpretation/furniture/furnishing_sizes.hpp"
 
 namespace roomscribe {
@@ -246,44 +249,87 @@ std::optional<SlabCut> halve(const FurnitureVoxels& all, const LevelSlab& slab) 
     return supports == 0 && may_be_one ? std::nullopt : best;
 }
 
-/// Seats of two chairs side by side that noise ties together: of a chair's size both, with nearly
-/// nothing between, where cushions of a sofa touch along their depth.
+/// How much of a slab's depth is covered, in bins along a direction.
+struct DepthProfile {
+    double start = 0.0;  ///< m, along the direction
+    double bin = 0.0;    ///< m
+    std::vector<double> depths;
+};
+
+DepthProfile measure_depths(std::span<const Eigen::Vector2d> places,
+                            const Eigen::Vector2d& direction, double bin, double edge) {
+    const Eigen::Vector2d across(-direction.y(), direction.x());
+    std::vector<std::pair<std::int32_t, std::int32_t>> cells;  // along, across
+    for (const Eigen::Vector2d& place : places)
+        cells.emplace_back(static_cast<std::int32_t>(std::floor(place.dot(direction) / bin)),
+                           static_cast<std::int32_t>(std::floor(place.dot(across) / edge)));
+    std::sort(cells.begin(), cells.end());
+    cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
+    const std::int32_t first = cells.front().first;
+    DepthProfile profile{bin * first, bin, {}};
+    profile.depths.assign(static_cast<std::size_t>(cells.back().first - first) + 1, 0.0);
+    for (const auto& [along, beside] : cells)
+        profile.depths[static_cast<std::size_t>(along - first)] += edge;
+    return profile;
+}
+
+/// Seats of chairs side by side that noise ties together, or that stand askew and touch at a
+/// corner: of a chair's size, with nearly nothing along a line between, where cushions of a sofa
+/// touch along their depth.
 std::optional<SlabCut> cut_seats(const FurnitureVoxels& all,
                                  std::span<const Eigen::Vector2d> places, const LevelSlab& slab,
                                  double voxel_size) {
     constexpr double min_seat = 0.3;
-    constexpr double max_filled = 0.25;  // share of the seats' depth
+    constexpr double max_filled = 1.0 / 3.0;  // of the seats' depth; bins are wider than some gaps
     constexpr double max_row = 4.0;      // seats
+    constexpr int max_turns = 4;         // either way, of chairs that stand askew
+    const double turn = radians(5.0);
     const PlanRectangle& rectangle = slab.rectangle;
-    if (slab.height > max_seat || rectangle.width > max_seat_width ||
+    // What stands askew takes the diagonal of a seat, or lies a little before its neighbour.
+    const double max_width = std::sqrt(2.0) * max_seat_width;
+    if (slab.height > max_seat || rectangle.width > max_width ||
         rectangle.length < 2.0 * min_seat || rectangle.length > max_row * max_seat_width) {
         return std::nullopt;
     }
     const double bin = 1.5 * std::max(voxel_size, 0.5 * all.reach);
-    std::vector<std::pair<std::int32_t, std::int32_t>> cells;  // along, across
-    for (const Eigen::Vector2d& place : places) {
-        const Eigen::Vector2d from = place - rectangle.center;
-        cells.emplace_back(
-            static_cast<std::int32_t>((from.dot(rectangle.axis) + 0.5 * rectangle.length) / bin),
-            static_cast<std::int32_t>(std::floor(from.dot(rectangle.across()) / voxel_size)));
-    }
-    std::sort(cells.begin(), cells.end());
-    cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
-    std::vector<double> depths(static_cast<std::size_t>(rectangle.length / bin) + 1, 0.0);
-    for (const auto& [along, across] : cells)
-        depths[static_cast<std::size_t>(along)] += 1.0;
-    std::vector<double> sorted = depths;
-    const double usual = median(sorted);
     const auto margin = static_cast<std::size_t>(min_seat / bin);
     std::optional<SlabCut> best;
-    double least = max_filled * usual;
-    for (std::size_t i = margin; i + margin < depths.size(); ++i) {
-        if (depths[i] > least) continue;
-        least = depths[i];
-        const double start = rectangle.center.dot(rectangle.axis) - 0.5 * rectangle.length;
-        best = SlabCut{rectangle.axis, start + bin * (static_cast<double>(i) + 0.5), 0.0};
+    double least = 1.0;
+    for (int turns = -max_turns; turns <= max_turns; ++turns) {
+        const Eigen::Vector2d direction = Eigen::Rotation2Dd(turn * turns) * rectangle.axis;
+        const DepthProfile profile = measure_depths(places, direction, bin, voxel_size);
+        std::vector<double> sorted = profile.depths;
+        const double usual = median(sorted);
+        for (std::size_t i = margin; i + margin < profile.depths.size(); ++i) {
+            const double filled = profile.depths[i] / usual;
+            if (filled > max_filled || filled >= least) continue;
+            least = filled;
+            best = SlabCut{direction, profile.start + bin * (static_cast<double>(i) + 0.5), 0.0};
+        }
     }
     return best;
+}
+
+/// Two seats of which one stands a little before the other, so that no line is empty, but
+/// rectangles around each leave out much of the one around both.
+std::optional<SlabCut> cut_staggered_seats(std::span<const Eigen::Vector2d> places,
+                                           const LevelSlab& slab, double step) {
+    constexpr double max_share = 0.85;
+    const PlanRectangle& rectangle = slab.rectangle;
+    if (slab.height > max_seat || rectangle.length < 2.0 * min_part ||
+        rectangle.length > 2.0 * max_seat_width) {
+        return std::nullopt;
+    }
+    const SlabCut cut = find_single_cut(places, rectangle, step);
+    if (cut.area > max_share * rectangle.area()) return std::nullopt;
+    std::array<std::vector<Eigen::Vector2d>, 2> parts;
+    for (const Eigen::Vector2d& place : places)
+        parts[place.dot(cut.direction) < cut.at ? 0 : 1].push_back(place);
+    const bool are_seats = std::all_of(parts.begin(), parts.end(), [](const auto& part) {
+        const PlanRectangle seat = smallest_rectangle(part);
+        return seat.length >= min_part && seat.length <= max_seat_width;
+    });
+    return are_seats ? std::optional(cut) : std::nullopt;
 }
 
 }  // namespace
@@ -293,6 +339,7 @@ std::optional<SlabCut> choose_slab_cut(const FurnitureVoxels& all,
                                        const LevelSlab& slab, double voxel_size) {
     const PlanRectangle& rectangle = slab.rectangle;
     if (std::optional<SlabCut> cut = cut_seats(all, places, slab, voxel_size)) return cut;
+    if (std::optional<SlabCut> cut = cut_staggered_seats(places, slab, voxel_size)) return cut;
     if (rectangle.width <= max_table_width + 0.1) return cut_desks(all, slab);
     // What fills less than this of its rectangle is an L or several at angles.
     constexpr double min_fill = 0.8;
