@@ -25,6 +25,7 @@ SlabUse use_of(const LevelSlab& slab);
 struct PieceDraft {
     std::vector<std::uint32_t> voxels;  ///< numbers in FurnitureVoxels, ascending
     std::vector<std::size_t> slabs;     ///< numbers of its slabs, the largest first; may be empty
+    bool is_chair = false;              ///< a chair's back with what is below and before it
     bool is_under_top = false;          ///< a box that was parted from the table above it
 };
 

@@ -101,6 +101,7 @@ PieceForm measure_form(const FurnitureVoxels& all, std::span<const LevelSlab> sl
     PieceForm form;
     form.num_voxels = draft.voxels.size();
     form.num_slabs = draft.slabs.size();
+    form.is_chair = draft.is_chair;
     form.is_under_top = draft.is_under_top;
     if (draft.voxels.empty()) return form;
     std::vector<double> heights;

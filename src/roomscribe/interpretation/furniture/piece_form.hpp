@@ -34,6 +34,7 @@ struct PieceForm {
     double blur = 0.0;   ///< m, by which noise makes what is flat look thick
     double depth = 0.0;  ///< m, from that wall to its front; 0 for no wall
     bool reaches_ceiling = false;
+    bool is_chair = false;      ///< PieceDraft::is_chair
     bool is_under_top = false;  ///< PieceDraft::is_under_top
     std::size_t num_voxels = 0;
     std::size_t num_slabs = 0;

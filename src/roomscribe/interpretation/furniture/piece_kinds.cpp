@@ -256,19 +256,15 @@ PieceVerdict judge_box(const PieceForm& form) {
         "sides of a box before a wall");
 }
 
-/// A chair whose seat was not seen: the back of one that is pushed under a table, or what is as
-/// large as a chair and stands free of walls, where plants and radiators do not.
+/// A chair whose seat was not seen and whose back was not parted from the rest: what is as large as
+/// a chair and stands free of walls, where plants and radiators do not.
 PieceVerdict judge_hidden_seat(const PieceForm& form) {
     const double clearance = form.depth == 0.0 ? any.high : form.depth;
-    const Range height{0.75, 1.2};
-    const Range across{0.38, 0.75};
-    if (!height.holds(form.top) || !across.holds(form.rectangle.length)) return {};
-    const bool is_back = Range{0.35, 0.75}.holds(form.bottom) && form.upright >= 0.7 &&
-                         form.planar >= 0.8 && clearance > 0.5;
-    if (is_back) return furniture("chair", "back of a chair, its seat hidden", 0.65);
     // m2, more than the back of any office chair; its foot and seat are not upright.
     constexpr double max_back = 0.45;
-    const bool is_whole = form.bottom <= max_standing_bottom && form.rectangle.width >= 0.22 &&
+    const bool is_whole = Range{0.75, 1.2}.holds(form.top) &&
+                          Range{0.38, 0.75}.holds(form.rectangle.length) &&
+                          form.bottom <= max_standing_bottom && form.rectangle.width >= 0.22 &&
                           form.planar >= 0.4 && form.upright <= 0.93 &&
                           Range{0.08, max_back}.holds(form.face) && clearance >= 0.78;
     return is_whole ? furniture("chair", "size of a chair, in the open", 0.65) : PieceVerdict{};
@@ -330,7 +326,9 @@ bool is_of_furniture_size(const PieceForm& form) {
 
 PieceVerdict judge_piece(const PieceForm& form) {
     constexpr std::size_t min_voxels = 30;  // of 4 cm: 0.05 m2 of surface
-    if (form.num_voxels < min_voxels || is_bent(form)) return {};
+    if (form.num_voxels < min_voxels) return {};
+    if (is_bent(form) && !form.is_chair) return {};
+    if (form.is_chair) return furniture("chair", "back of a chair, with what is below", 0.7);
     if (form.is_under_top) return furniture("drawer_unit", "box with a gap below a top", 0.75);
     if (is_shoe_cabinet(form)) return furniture("cabinet", "shallow box before a wall", 0.6);
     if (form.depth > 0.0 && form.depth <= max_thin_depth) return judge_thin(form);
@@ -340,6 +338,14 @@ PieceVerdict judge_piece(const PieceForm& form) {
     if (!is_of_furniture_size(form)) return {};
     constexpr double unsure = 0.4;  // cartons are as flat-sided and as large
     return furniture("other", "flat-sided thing of furniture's size", unsure);
+}
+
+bool is_back_of_chair(const PieceForm& form) {
+    constexpr double max_width = 0.5;  // m: of what bends around a person, with the noise
+    return form.num_slabs == 0 && Range{0.35, 0.75}.holds(form.bottom) &&
+           Range{0.75, 1.2}.holds(form.top) && Range{0.38, 0.75}.holds(form.rectangle.length) &&
+           form.rectangle.width <= max_width && form.upright >= 0.7 &&
+           (form.depth == 0.0 || form.depth > 0.5);
 }
 
 bool has_fronts(std::string_view kind) {

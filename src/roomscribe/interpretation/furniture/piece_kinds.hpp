@@ -26,6 +26,10 @@ struct PieceVerdict {
 /// curtains do.
 PieceVerdict judge_piece(const PieceForm& form);
 
+/// Whether a draft without a seat is a chair's back: upright, which leaves and limbs are not all
+/// over, of its size and height, and off the walls, where radiators hang.
+bool is_back_of_chair(const PieceForm& form);
+
 /// Whether pieces of a kind are closed by doors or drawers.
 bool has_fronts(std::string_view kind);
 

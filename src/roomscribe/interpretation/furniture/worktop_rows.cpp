@@ -66,7 +66,7 @@ void join_worktop_rows(const FurnitureVoxels& all, std::span<const LevelSlab> sl
                        const RoomSurfaces& surfaces, std::vector<PieceDraft>& drafts) {
     std::vector<RowPart> parts;
     for (std::size_t i = 0; i < drafts.size(); ++i) {
-        if (drafts[i].voxels.empty()) continue;
+        if (drafts[i].voxels.empty() || drafts[i].is_chair || drafts[i].is_under_top) continue;
         const RowPart part = measure(all, slabs, drafts, i);
         if (part.height >= min_worktop && part.height <= max_worktop) parts.push_back(part);
     }
