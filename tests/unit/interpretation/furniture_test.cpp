@@ -13,7 +13,9 @@
 
 #include "roomscribe/core/random.hpp"
 #include "roomscribe/core/units.hpp"
+#include "roomscribe/interpretation/furniture/hidden_seats.hpp"
 #include "roomscribe/interpretation/furniture/level_slabs.hpp"
+#include "roomscribe/interpretation/furniture/pedestals.hpp"
 #include "roomscribe/interpretation/furniture/piece_drafts.hpp"
 #include "roomscribe/interpretation/furniture/piece_faces.hpp"
 #include "roomscribe/interpretation/furniture/piece_kinds.hpp"
@@ -239,6 +241,37 @@ TEST(FindFurniture, TellsAChairFromTheTableThatItIsPushedUnder) {
     }
 }
 
+TEST(FindFurniture, PartsAPedestalFromTheDeskThatItRollsUnder) {
+    // As wide as pedestals, its front 6 cm behind the desk's edge.
+    const auto iou_of = [](double height, int thing) {
+        MadeUpRoom made;
+        made.table({2.5, 2.0, 0.0}, 0.0, 1.6, 0.8, 0.74, 1);
+        made.box({2.0, 1.96, 0.0}, 0.0, {0.42, 0.6, height}, 2);
+        return best_iou(made, find(made.cloud), thing);
+    };
+    EXPECT_GT(iou_of(0.6, 1), 0.8);
+    EXPECT_GT(iou_of(0.6, 2), 0.7);
+    // What reaches the top is a part of the desk.
+    EXPECT_LT(iou_of(0.7, 2), 0.5);
+}
+
+TEST(FindFurniture, GivesABackTheLegsBelowItThatTouchATable) {
+    MadeUpRoom made;
+    const Vector3d middle(2.5, 2.0, 0.0);
+    made.table(middle, 0.0, 1.4, 0.8, 0.74, 1);
+    // Its seat was not seen, and its legs stand at those of the table.
+    const Vector3d seat(2.98, 2.3, 0.0);
+    made.box(seat + Vector3d(0.0, 0.21, 0.0), 0.0, {0.44, 0.03, 0.4}, 2, 0.5);
+    for (const double x : {-0.2, 0.2}) {
+        for (const double y : {-0.2, 0.2})
+            made.box(seat + Vector3d(x, y, 0.0), 0.0, {0.04, 0.04, 0.44}, 2);
+    }
+    const Found found = find(made.cloud);
+    EXPECT_EQ(pieces_of(found).size(), 2U);
+    EXPECT_GT(best_iou(made, found, 1), 0.8);
+    EXPECT_GT(best_iou(made, found, 2), 0.7);
+}
+
 TEST(FindFurniture, KeepsATableForMeetingsWholeAndPartsDesksThatFaceEachOther) {
     MadeUpRoom meeting;
     meeting.table({2.5, 2.0, 0.0}, 0.0, 2.6, 1.3, 0.74, 1);
@@ -425,6 +458,21 @@ class MadeUpVoxels {
         }
     }
 
+    /// A level square around a place, turned about it.
+    void fill_turned(const Vector3d& middle, double turn, double side) {
+        const double half = 0.5 * side * (std::abs(std::cos(turn)) + std::abs(std::sin(turn)));
+        const auto steps = static_cast<int>(half / edge);
+        for (int i = -steps; i <= steps; ++i) {
+            for (int j = -steps; j <= steps; ++j) {
+                const Eigen::Vector2d from(edge * i, edge * j);
+                const Eigen::Vector2d within = Eigen::Rotation2Dd(-turn) * from;
+                if (within.cwiseAbs().maxCoeff() > 0.5 * side) continue;
+                const Vector3d place = middle + Vector3d(from.x(), from.y(), 0.0);
+                fill(place, place, true);
+            }
+        }
+    }
+
     FurnitureVoxels finish() {
         all_.reach = 2.0 * edge;
         all_.first.assign(1, 0);
@@ -511,6 +559,47 @@ TEST(FindLevelSlabs, JoinsNoSeatsOfARow) {
         }
         EXPECT_EQ(find_level_slabs(row.finish(), MadeUpVoxels::edge).size(), 3U);
     }
+}
+
+TEST(FindLevelSlabs, PartsSeatsThatStandAskew) {
+    // The corner of one that is turned by 15 degrees touches the other.
+    MadeUpVoxels turned;
+    turned.fill({0.0, 0.0, 0.45}, {0.44, 0.44, 0.45}, true);
+    turned.fill_turned({0.76, 0.2, 0.45}, radians(15.0), 0.44);
+    EXPECT_EQ(find_level_slabs(turned.finish(), MadeUpVoxels::edge).size(), 2U);
+    // One that stands before the other.
+    MadeUpVoxels staggered;
+    staggered.fill({0.0, 0.0, 0.45}, {0.44, 0.44, 0.45}, true);
+    staggered.fill({0.48, 0.24, 0.45}, {0.92, 0.68, 0.45}, true);
+    EXPECT_EQ(find_level_slabs(staggered.finish(), MadeUpVoxels::edge).size(), 2U);
+}
+
+TEST(DraftPieces, GivesStraysToTheTopThatTheyLieIn) {
+    MadeUpVoxels made;
+    made.fill({0.0, 0.0, 0.74}, {1.2, 0.5, 0.74}, true);
+    made.fill({0.0, 0.7, 0.74}, {1.2, 0.7, 0.74}, true);
+    made.fill({0.6, 0.1, 0.3}, {0.6, 0.1, 0.3});
+    made.fill({0.6, 1.0, 0.74}, {0.6, 1.0, 0.74}, true);
+    FurnitureVoxels all = made.finish();
+    std::size_t num_within = 0;
+    for (FurnitureVoxel& voxel : all.voxels) {
+        if (voxel.height > 0.5 && voxel.place.y() < 0.69) continue;
+        voxel.is_core = voxel.place.y() > 0.69 && voxel.place.y() < 0.9;
+        voxel.is_stray = !voxel.is_core;
+        num_within += voxel.is_stray ? 1 : 0;
+    }
+    ASSERT_EQ(num_within, 2U);
+    const std::vector<PieceDraft> drafts =
+        draft_pieces(all, find_level_slabs(all, MadeUpVoxels::edge));
+    std::size_t num_drafted = 0;
+    for (const PieceDraft& draft : drafts) {
+        for (const std::uint32_t i : draft.voxels) {
+            if (!all.voxels[i].is_stray) continue;
+            ++num_drafted;
+            EXPECT_LT(all.voxels[i].height, 0.5);
+        }
+    }
+    EXPECT_EQ(num_drafted, 1U);
 }
 
 /// Pieces of three seats, closed below, on one plate.
@@ -656,6 +745,40 @@ TEST(JudgePiece, TakesWhatIsLikeAChairForOneInTheOpenOnly) {
     EXPECT_GE(judge_piece(form).confidence, 0.5);
     form.depth = 0.55;  // a plant
     EXPECT_LT(judge_piece(form).confidence, 0.5);
+}
+
+TEST(IsBackOfChair, TellsMeshAndBentBacksFromLeavesAndRadiators) {
+    PieceForm back = upright_form(0.5, 0.2, 0.5, 1.0);
+    back.planar = 0.0;
+    back.face = 0.0;
+    EXPECT_TRUE(is_back_of_chair(back));
+    PieceForm leaves = back;
+    leaves.upright = 0.5;
+    EXPECT_FALSE(is_back_of_chair(leaves));
+    PieceForm at_wall = back;
+    at_wall.depth = 0.3;
+    EXPECT_FALSE(is_back_of_chair(at_wall));
+    // A thing that stands on the floor shows its lower part.
+    EXPECT_FALSE(is_back_of_chair(upright_form(0.5, 0.2, 0.1, 1.0)));
+}
+
+TEST(CompleteChairs, LeavesTheUpperHalfOfAFront) {
+    MadeUpVoxels made;
+    made.fill({0.0, 0.0, 0.6}, {0.48, 0.0, 0.9});
+    const std::size_t num_back = 13 * 8;
+    made.fill({0.0, 0.0, 0.08}, {0.48, 0.0, 0.52});
+    const FurnitureVoxels all = made.finish();
+    PieceDraft back;
+    for (std::uint32_t i = 0; i < all.voxels.size(); ++i) {
+        if (all.voxels[i].height > 0.58) back.voxels.push_back(i);
+    }
+    std::vector<PieceDraft> drafts{back};
+    RoomSurfaces surfaces;
+    surfaces.storeys.resize(1);
+    surfaces.storeys[0].plan.rooms.resize(1);
+    complete_chairs(all, {}, surfaces, drafts);
+    EXPECT_FALSE(drafts[0].is_chair);
+    EXPECT_EQ(drafts[0].voxels.size(), num_back);
 }
 
 TEST(JudgePiece, AsksOfSeatsAndTopsTheirSizes) {

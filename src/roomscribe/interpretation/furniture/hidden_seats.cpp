@@ -58,14 +58,17 @@ class ChairCompleter {
             const Eigen::Vector2d across = rectangle.across();
             sides[side] = find_below(back, {rectangle, side == 0 ? across : -across});
         }
-        std::vector<std::uint32_t>& draft = drafts_[back].voxels;
-        for (const std::uint32_t i : sides[0].size() >= sides[1].size() ? sides[0] : sides[1]) {
+        const std::vector<std::uint32_t>& below =
+            sides[0].size() >= sides[1].size() ? sides[0] : sides[1];
+        if (goes_on_below(below, rectangle.length)) return;
+        PieceDraft& draft = drafts_[back];
+        draft.is_chair = true;
+        for (const std::uint32_t i : below) {
             if (draft_of_voxel_[i] != no_draft) std::erase(drafts_[draft_of_voxel_[i]].voxels, i);
             draft_of_voxel_[i] = back;
-            draft.push_back(i);
+            draft.voxels.push_back(i);
         }
-        std::sort(draft.begin(), draft.end());
-        drafts_[back].is_chair = true;
+        std::sort(draft.voxels.begin(), draft.voxels.end());
     }
 
   private:
@@ -80,6 +83,18 @@ class ChairCompleter {
             if (may_give(draft_of_voxel_[i], voxel, chair)) found.push_back(i);
         }
         return found;
+    }
+
+    /// Whether what is below a back closes the height of a seat, as the lower half of a front does;
+    /// legs are not flat, and seats not upright.
+    bool goes_on_below(std::span<const std::uint32_t> below, double width) const {
+        constexpr double min_closed = 0.5;
+        const auto closing =
+            std::count_if(below.begin(), below.end(), [&](std::uint32_t i) {
+                return all_.voxels[i].is_upright && all_.voxels[i].is_planar;
+            });
+        const double voxel_area = 0.25 * all_.reach * all_.reach;
+        return voxel_area * static_cast<double>(closing) >= min_closed * width * max_seat;
     }
 
     /// Whether a voxel may be a chair's though a draft has it.
