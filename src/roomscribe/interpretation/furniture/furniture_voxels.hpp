@@ -33,7 +33,7 @@ struct FurnitureVoxel {
     bool is_planar = false;           ///< part of a patch that is more than a hand's breadth wide
     bool looks_down = false;          ///< its normal looks down, and normals look to the scanner
     bool is_near_wall = false;        ///< within the relief of a wall's face
-    bool is_stray = false;  ///< hangs together with nothing, off walls
+    bool is_stray = false;            ///< hangs together with nothing, off walls
     /// Hangs together with others in the room: neither a stray nor what is left of a wall's face.
     bool is_core = false;
 };

@@ -43,7 +43,11 @@ class ChairCompleter {
   public:
     ChairCompleter(const FurnitureVoxels& all, std::span<const LevelSlab> slabs,
                    std::vector<PieceDraft>& drafts)
-        : all_(all), slabs_(slabs), drafts_(drafts), draft_of_voxel_(all.voxels.size(), no_draft), top_(drafts.size(), 0.0) {
+        : all_(all),
+          slabs_(slabs),
+          drafts_(drafts),
+          draft_of_voxel_(all.voxels.size(), no_draft),
+          top_(drafts.size(), 0.0) {
         for (std::size_t d = 0; d < drafts.size(); ++d) {
             for (const std::uint32_t i : drafts[d].voxels) {
                 draft_of_voxel_[i] = d;
@@ -89,10 +93,9 @@ class ChairCompleter {
     /// legs are not flat, and seats not upright.
     bool goes_on_below(std::span<const std::uint32_t> below, double width) const {
         constexpr double min_closed = 0.5;
-        const auto closing =
-            std::count_if(below.begin(), below.end(), [&](std::uint32_t i) {
-                return all_.voxels[i].is_upright && all_.voxels[i].is_planar;
-            });
+        const auto closing = std::count_if(below.begin(), below.end(), [&](std::uint32_t i) {
+            return all_.voxels[i].is_upright && all_.voxels[i].is_planar;
+        });
         const double voxel_area = 0.25 * all_.reach * all_.reach;
         return voxel_area * static_cast<double>(closing) >= min_closed * width * max_seat;
     }

@@ -18,10 +18,11 @@ namespace {
 
 /// m above the floor: of a desk's or table's top; a worktop has its units below.
 constexpr double max_top = 0.85;
-/// m: pedestals are 0.40 to 0.43 wide and 0.52 to 0.65 high, on castors of 5 cm and more; the front
-/// may end a plate's thickness lower, and what lies lower than 0.2 may be hidden.
-constexpr double min_width = 0.38;
+/// m: pedestals are 0.40 to 0.43 wide, of which voxels at the corners may be another side's, and
+/// 0.52 to 0.65 high, on castors of 5 cm and more; what lies lower than 0.2 may be hidden.
+constexpr double min_width = 0.36;
 constexpr double max_width = 0.5;
+constexpr double usual_width = 0.43;
 constexpr double min_front_top = 0.52;
 constexpr double max_front_bottom = 0.2;
 /// m: of pedestals for desks 0.7 and 0.8 deep; deeper ones stand beside.
@@ -46,7 +47,8 @@ struct PedestalFront {
         const Eigen::Vector2d from = place - rectangle.center;
         const double behind = -from.dot(outward);
         const double margin = slack + 2.0 * noise;
-        return std::abs(from.dot(rectangle.axis)) <= 0.5 * rectangle.length + margin &&
+        const double width = std::max(rectangle.length, usual_width);
+        return std::abs(from.dot(rectangle.axis)) <= 0.5 * width + margin &&
                behind >= -0.5 * rectangle.width - margin && behind <= max_depth;
     }
 };
@@ -127,8 +129,7 @@ void part_pedestals(const FurnitureVoxels& all, std::span<const LevelSlab> slabs
             const auto is_of_pedestal = [&](std::uint32_t i) {
                 const FurnitureVoxel& voxel = all.voxels[i];
                 return voxel.storey == some.storey && voxel.room == some.room &&
-                       voxel.height <= front.top + slack &&
-                       front.is_behind(voxel.place.head<2>());
+                       voxel.height <= front.top + slack && front.is_behind(voxel.place.head<2>());
             };
             for (PieceDraft& other : drafts) {
                 const auto kept =

@@ -262,11 +262,10 @@ PieceVerdict judge_hidden_seat(const PieceForm& form) {
     const double clearance = form.depth == 0.0 ? any.high : form.depth;
     // m2, more than the back of any office chair; its foot and seat are not upright.
     constexpr double max_back = 0.45;
-    const bool is_whole = Range{0.75, 1.2}.holds(form.top) &&
-                          Range{0.38, 0.75}.holds(form.rectangle.length) &&
-                          form.bottom <= max_standing_bottom && form.rectangle.width >= 0.22 &&
-                          form.planar >= 0.4 && form.upright <= 0.93 &&
-                          Range{0.08, max_back}.holds(form.face) && clearance >= 0.78;
+    const bool is_whole =
+        Range{0.75, 1.2}.holds(form.top) && Range{0.38, 0.75}.holds(form.rectangle.length) &&
+        form.bottom <= max_standing_bottom && form.rectangle.width >= 0.22 && form.planar >= 0.4 &&
+        form.upright <= 0.93 && Range{0.08, max_back}.holds(form.face) && clearance >= 0.78;
     return is_whole ? furniture("chair", "size of a chair, in the open", 0.65) : PieceVerdict{};
 }
 

@@ -281,8 +281,8 @@ std::optional<SlabCut> cut_seats(const FurnitureVoxels& all,
                                  double voxel_size) {
     constexpr double min_seat = 0.3;
     constexpr double max_filled = 1.0 / 3.0;  // of the seats' depth; bins are wider than some gaps
-    constexpr double max_row = 4.0;      // seats
-    constexpr int max_turns = 4;         // either way, of chairs that stand askew
+    constexpr double max_row = 4.0;           // seats
+    constexpr int max_turns = 4;              // either way, of chairs that stand askew
     const double turn = radians(5.0);
     const PlanRectangle& rectangle = slab.rectangle;
     // What stands askew takes the diagonal of a seat, or lies a little before its neighbour.
