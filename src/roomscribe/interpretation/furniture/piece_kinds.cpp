@@ -326,9 +326,9 @@ bool is_of_furniture_size(const PieceForm& form) {
 PieceVerdict judge_piece(const PieceForm& form) {
     constexpr std::size_t min_voxels = 30;  // of 4 cm: 0.05 m2 of surface
     if (form.num_voxels < min_voxels) return {};
-    if (is_bent(form) && !form.is_chair) return {};
     if (form.is_chair) return furniture("chair", "back of a chair, with what is below", 0.7);
     if (form.is_under_top) return furniture("drawer_unit", "box with a gap below a top", 0.75);
+    if (is_bent(form)) return {};
     if (is_shoe_cabinet(form)) return furniture("cabinet", "shallow box before a wall", 0.6);
     if (form.depth > 0.0 && form.depth <= max_thin_depth) return judge_thin(form);
     if (form.bottom >= min_hanging_bottom) return judge_hanging(form);

@@ -20,7 +20,8 @@ struct PieceVerdict {
 };
 
 /// The kind whose sizes the draft fits best, by furnishing practice (docs/furniture.md). A
-/// confidence is the kind's own times the fit. What fits none well, but stands, is flat-sided and
+/// confidence is the kind's own times the fit. Chairs and pedestals that were told by how they were
+/// drafted are what they were told to be. What fits none well, but stands, is flat-sided and
 /// as large as furniture, is "other" with less than min_piece_confidence. No furniture: what is too
 /// small, bent (plants, people), part of the building, or hangs before a wall as radiators and
 /// curtains do.
