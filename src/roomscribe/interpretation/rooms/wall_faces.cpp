@@ -289,7 +289,9 @@ bool FaceFinder::is_wall(const WallFace& face, std::optional<double> ceiling) co
     // Beams, ducts and soffits end above the floor, which goes on under them.
     if (face.reaches_ceiling) return face.reaches_floor || !has_level_behind(face);
     if (!ceiling && height >= settings_.min_free_wall_height) return true;
-    if (height >= min_parting_height && parts_rooms(face)) return true;
+    // Where scanners are known, rays tell.
+    if (sample_.sensor_positions.empty() && height >= min_parting_height && parts_rooms(face))
+        return true;
     const bool is_tall = face.top >= room.floor_height + settings_.min_closing_top ||
                          (!rays_.empty() && above == AboveFace::unseen);
     return face.area >= min_closing_area && is_tall && is_last(face);
