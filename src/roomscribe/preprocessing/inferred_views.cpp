@@ -305,7 +305,7 @@ std::vector<Vector3f> choose_places(std::vector<Place> places) {
 class DistanceCube {
   public:
     DistanceCube(const Occupancy& occupancy, const Vector3f& place) : cell_(occupancy.cell()) {
-        distances_.assign(static_cast<std::size_t>(6 * face_pixels * face_pixels),
+        distances_.assign(std::size_t{6} * face_pixels * face_pixels,
                           std::numeric_limits<float>::infinity());
         for (const Vector3f& point : occupancy.points()) {
             const Vector3f way = point - place;
@@ -378,7 +378,9 @@ class DistanceCube {
         return (static_cast<float>(pixel) + 0.5F) * 2.0F / face_pixels - 1.0F;
     }
     static std::size_t index(int face, int u, int v) {
-        return static_cast<std::size_t>((face * face_pixels + v) * face_pixels + u);
+        return (static_cast<std::size_t>(face) * face_pixels + static_cast<std::size_t>(v)) *
+                   face_pixels +
+               static_cast<std::size_t>(u);
     }
 
     float cell_;
