@@ -20,12 +20,14 @@ constexpr std::size_t max_looks = 10'000;
 /// Of the distance. Neighbouring rays on a surface differ by less: at a degree between them and 20
 /// degrees to the surface, by 5 %.
 constexpr double min_jump = 0.05;
-/// Single scans have 0.3 to 6 % of jumps at the edges of things, seldom 11 %; scans that were moved
-/// by a metre, and two in one cloud, 7 % and more; maps of several 14 % (an empty corridor) to 50
-/// %. Tilting scanners whose lines lie far apart may have as many as maps.
+/// Most single scans have 0.3 to 6 % of jumps at the edges of things; scans that were moved by a
+/// metre, and two in one cloud, 7 % and more; maps of several 14 % (an empty corridor) to 50 %.
+/// Tilting scanners whose lines lie far apart may have as many as maps, to 28 %.
 constexpr double max_share = 0.06;
-/// What stands a laxer test is no map for certain.
-constexpr double max_assumed_share = 0.125;
+/// Of the one scan of a run: rather no scanner than that of a map.
+constexpr double max_lone_share = 0.125;
+/// Of one of several, which are seldom maps: rather a map's scanner than none.
+constexpr double max_share_of_several = 0.35;
 
 OriginTest test_section(const ScanMap& map, const MapSection& section, const Context& context) {
     const Eigen::Vector3f sensor =
@@ -77,16 +79,21 @@ std::vector<std::pair<std::size_t, OriginTest>> settle_assumed_scanners(ScanMap&
     std::vector<std::pair<std::size_t, OriginTest>> tests;
     for (std::size_t i = 0; i < map.sections.size(); ++i) {
         MapSection& section = map.sections[i];
-        const bool is_lone =
-            map.sections.size() == 1 && !section.sensor_position && map.cloud.global_shift.isZero();
-        if (!section.sensor_is_assumed && !is_lone) continue;
+        const bool is_alone = map.sections.size() == 1;
+        const bool is_silent =
+            is_alone && !section.sensor_position && map.cloud.global_shift.isZero();
+        if (!section.sensor_is_assumed && !is_silent) continue;
         OriginTest test = test_section(map, section, context);
+        const bool tells_nothing = test.share_of_jumps == 1.0;
+        if (section.sensor_is_assumed && tells_nothing) continue;
+        test.is_scanner = test.share_of_jumps <= (is_silent  ? max_share
+                                                  : is_alone ? max_lone_share
+                                                             : max_share_of_several);
         tests.emplace_back(i, test);
-        test.is_scanner = test.share_of_jumps <= (is_lone ? max_share : max_assumed_share);
         if (!test.is_scanner) {
             section.sensor_position.reset();
             section.sensor_axes.reset();
-        } else if (is_lone) {
+        } else if (is_silent) {
             section.sensor_position = Eigen::Vector3d::Zero();
             section.sensor_axes = Eigen::Matrix3d::Identity();
         }

@@ -83,17 +83,43 @@ PointCloud silent_scan() {
     return scan;
 }
 
-TEST(SettleAssumedScanners, TakesAwayOneThatStoodElsewhere) {
-    ScanMap map = map_of(silent_scan(), moved_scan());
-    ASSERT_TRUE(map.sections[1].sensor_position);
+TEST(SettleAssumedScanners, TakesAwayThatOfALoneScanThatStoodElsewhere) {
+    for (const bool is_moved : {true, false}) {
+        std::vector<Scan> scans(1);
+        scans[0].cloud = is_moved ? moved_scan() : silent_scan();
+        ScanMap map =
+            merge_scans(std::move(scans), std::vector{std::optional(Transform::Identity())});
+        ASSERT_TRUE(map.sections[0].sensor_position);
+        const auto tests = settle_assumed_scanners(map, {});
+        ASSERT_EQ(tests.size(), 1U);
+        EXPECT_EQ(tests[0].second.is_scanner, !is_moved) << tests[0].second.share_of_jumps;
+        EXPECT_EQ(map.sections[0].sensor_position.has_value(), !is_moved);
+        EXPECT_EQ(map.sections[0].sensor_axes.has_value(), !is_moved);
+    }
+}
+
+/// Points all over a room, as from everywhere.
+TEST(SettleAssumedScanners, TakesAwayThatOfAMapAmongScans) {
+    PointCloud cloud;
+    Random random(4);
+    cloud.positions = test::random_points(random, 5000, 3.0);
+    ScanMap map = map_of(silent_scan(), cloud);
     const auto tests = settle_assumed_scanners(map, {});
     ASSERT_EQ(tests.size(), 2U);
     EXPECT_TRUE(tests[0].second.is_scanner);
-    EXPECT_FALSE(tests[1].second.is_scanner);
+    EXPECT_FALSE(tests[1].second.is_scanner) << tests[1].second.share_of_jumps;
     EXPECT_TRUE(map.sections[0].sensor_position);
-    EXPECT_TRUE(map.sections[0].sensor_axes);
     EXPECT_FALSE(map.sections[1].sensor_position);
     EXPECT_FALSE(map.sections[1].sensor_axes);
+}
+
+TEST(SettleAssumedScanners, KeepsWhatTooFewPointsTellNothingOf) {
+    PointCloud few;
+    Random random(4);
+    few.positions = test::random_points(random, 100, 3.0);
+    ScanMap map = map_of(silent_scan(), few);
+    EXPECT_EQ(settle_assumed_scanners(map, {}).size(), 1U);
+    EXPECT_TRUE(map.sections[1].sensor_position);
 }
 
 TEST(SettleAssumedScanners, BelievesWhatFilesSay) {
