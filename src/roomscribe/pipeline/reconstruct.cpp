@@ -165,8 +165,7 @@ void interpret_by_default(Reconstruction& reconstruction, const PipelineSettings
     stages.finish("principal axes", 0.75);
     Upright upright = find_upright(sample, patches, axes, settings.interpretation.upright, context);
     stages.finish("upright", 0.8);
-    map.inferred_views = infer_views(map, upright.room_from_map.row(2).transpose(),
-                                     statistics.point_spacing, context);
+    map.inferred_views = infer_views(map, upright.room_from_map.row(2).transpose(), context);
     upright.facing_is_known |= face_inferred_views(map, sample, patches);
     stages.finish("views", 0.82);
     const std::vector<Ray> rays = sample_rays(map);

@@ -23,7 +23,7 @@ using Eigen::Vector3f;
 constexpr std::size_t min_points = 1000;
 /// Points that are looked at.
 constexpr std::size_t max_points = 2'000'000;
-/// m, edge of the cells that tell free from occupied; of the points' spacing, so that no surface
+/// m, edge of the cells that tell free from occupied; of most points' spacing, so that no surface
 /// has holes. In larger ones the two faces of a wall (10 to 15 cm within a house) are one.
 constexpr double min_cell_size = 0.05;
 constexpr double max_cell_size = 0.15;
@@ -59,6 +59,38 @@ constexpr std::size_t max_views = 48;
 constexpr float max_behind = 0.4F;
 /// Pixels along a face of the cube that a view's distances are drawn on: 0.5 degrees.
 constexpr int face_pixels = 180;
+
+/// The number of a cell of such an edge.
+std::uint64_t cell_number(const Vector3f& point, double edge) {
+    constexpr int bits = 21;
+    constexpr int offset = 1 << (bits - 1);
+    std::uint64_t key = 0;
+    for (const float value : point) {
+        const auto cell = static_cast<int>(std::floor(value / static_cast<float>(edge)));
+        key = key << bits | (static_cast<std::uint64_t>(cell + offset) & ((1U << bits) - 1));
+    }
+    return key;
+}
+
+/// m, from which three quarters of the points have their neighbours at most: by how many share a
+/// cell. What is far away, beyond windows, may be as sparse as it likes.
+double spacing_of_most(const std::vector<Vector3f>& points) {
+    constexpr double edge = 0.1;  // m
+    std::vector<std::uint64_t> cells(points.size());
+    std::transform(points.begin(), points.end(), cells.begin(),
+                   [](const Vector3f& point) { return cell_number(point, edge); });
+    std::sort(cells.begin(), cells.end());
+    std::vector<double> counts;
+    for (std::size_t begin = 0; begin < cells.size();) {
+        const auto end = static_cast<std::size_t>(
+            std::upper_bound(cells.begin() + static_cast<std::ptrdiff_t>(begin), cells.end(),
+                             cells[begin]) -
+            cells.begin());
+        counts.insert(counts.end(), end - begin, static_cast<double>(end - begin));
+        begin = end;
+    }
+    return edge / std::sqrt(quantile(counts, 0.25));
+}
 
 /// Without what lies far out: seen through windows, or nowhere.
 Eigen::AlignedBox3f usual_box(const std::vector<Vector3f>& points) {
@@ -240,17 +272,6 @@ std::vector<Vector3f> places_within(const Occupancy& occupancy, const Vector3f& 
     }
 }
 
-std::uint64_t coarse_cell_of(const Vector3f& point) {
-    constexpr int bits = 21;
-    constexpr int offset = 1 << (bits - 1);
-    std::uint64_t key = 0;
-    for (const float value : point) {
-        const auto cell = static_cast<int>(std::floor(value / static_cast<float>(coarse_cell)));
-        key = key << bits | (static_cast<std::uint64_t>(cell + offset) & ((1U << bits) - 1));
-    }
-    return key;
-}
-
 /// What a place sees, if it is within a room.
 std::optional<Place> look_around(const Occupancy& occupancy, const Vector3f& position,
                                  const Vector3f& up, const std::vector<Vector3f>& directions) {
@@ -260,7 +281,7 @@ std::optional<Place> look_around(const Occupancy& occupancy, const Vector3f& pos
         const float distance = occupancy.distance_along(position, direction);
         within.count(direction, std::isfinite(distance));
         if (std::isfinite(distance))
-            place.cells.push_back(coarse_cell_of(position + distance * direction));
+            place.cells.push_back(cell_number(position + distance * direction, coarse_cell));
     }
     if (!within.verdict()) return std::nullopt;
     std::sort(place.cells.begin(), place.cells.end());
@@ -405,7 +426,7 @@ InferredView view_from(const Vector3f& place, const Occupancy& occupancy,
 }  // namespace
 
 std::vector<InferredView> infer_views(const ScanMap& map, const Eigen::Vector3d& up,
-                                      double point_spacing, const Context& context) {
+                                      const Context& context) {
     std::vector<Vector3f> points;
     std::vector<std::uint32_t> numbers;
     const std::size_t stride = map.cloud.size() / max_points + 1;
@@ -417,8 +438,9 @@ std::vector<InferredView> infer_views(const ScanMap& map, const Eigen::Vector3d&
             numbers.push_back(static_cast<std::uint32_t>(i));
         }
     }
-    const double cell_size = std::max(cells_per_spacing * point_spacing, min_cell_size);
-    if (points.size() < min_points || cell_size > max_cell_size) return {};
+    if (points.size() < min_points) return {};
+    const double cell_size = std::max(cells_per_spacing * spacing_of_most(points), min_cell_size);
+    if (cell_size > max_cell_size) return {};
     const Occupancy occupancy(points, cell_size);
     const std::vector<Vector3f> directions = sphere();
     const Vector3f upwards = up.cast<float>();

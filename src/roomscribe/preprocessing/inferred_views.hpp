@@ -17,9 +17,8 @@ namespace roomscribe {
 /// ceiling was scanned does not matter. Points seen from none of the places are in no view; of very
 /// many points an even share is.
 ///
-/// `up`: a unit vector. `point_spacing`: m, of neighbouring points of the map. Empty if all
-/// sections have a scanner, or nothing is within a room.
+/// `up`: a unit vector. Empty if all sections have a scanner, or nothing is within a room.
 std::vector<InferredView> infer_views(const ScanMap& map, const Eigen::Vector3d& up,
-                                      double point_spacing, const Context& context = {});
+                                      const Context& context = {});
 
 }  // namespace roomscribe

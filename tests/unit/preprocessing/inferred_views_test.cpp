@@ -77,7 +77,7 @@ double seen_share(const ScanMap& map, const std::vector<InferredView>& views) {
 
 TEST(InferredViews, StandInRoomsAndSeeNearlyAll) {
     const TwoRooms rooms(false);
-    const auto views = infer_views(rooms.map, Vector3d::UnitZ(), step);
+    const auto views = infer_views(rooms.map, Vector3d::UnitZ());
     ASSERT_FALSE(views.empty());
     for (const InferredView& view : views)
         EXPECT_TRUE(rooms.holds(view.position)) << view.position.transpose();
@@ -86,7 +86,7 @@ TEST(InferredViews, StandInRoomsAndSeeNearlyAll) {
 
 TEST(InferredViews, SeeNothingThroughAWall) {
     const TwoRooms rooms(false);
-    for (const InferredView& view : infer_views(rooms.map, Vector3d::UnitZ(), step)) {
+    for (const InferredView& view : infer_views(rooms.map, Vector3d::UnitZ())) {
         const bool is_in_second = view.position.x() > 3.05;
         // Over the walls, where no ceiling was scanned, the other room's may be seen.
         if (view.position.z() > 1.5) continue;
@@ -102,7 +102,7 @@ TEST(InferredViews, SeeNothingThroughAWall) {
 TEST(InferredViews, SeeThroughAnOpenDoor) {
     const TwoRooms rooms(true);
     std::size_t num_through = 0;
-    for (const InferredView& view : infer_views(rooms.map, Vector3d::UnitZ(), step)) {
+    for (const InferredView& view : infer_views(rooms.map, Vector3d::UnitZ())) {
         const bool is_in_second = view.position.x() > 3.05;
         for (const std::uint32_t point : view.points) {
             const Vector3f& position = rooms.map.cloud.positions[point];
@@ -122,7 +122,7 @@ TEST(InferredViews, DoNotDependOnFrameOrOnWhatIsFarAway) {
     for (int i = 0; i < 20; ++i)
         map.cloud.positions.emplace_back(900.0F, 100.0F * static_cast<float>(i), 0.0F);
     map.sections[0].count += 20;
-    const auto views = infer_views(map, turned.linear() * Vector3d::UnitZ(), step);
+    const auto views = infer_views(map, turned.linear() * Vector3d::UnitZ());
     ASSERT_FALSE(views.empty());
     for (const InferredView& view : views)
         EXPECT_TRUE(rooms.holds(turned.inverse() * view.position));
@@ -137,18 +137,18 @@ TEST(InferredViews, StandNowhereButInRooms) {
     }
     wall.sections.push_back(
         {"wall", 0, static_cast<std::uint32_t>(wall.cloud.size()), std::nullopt});
-    EXPECT_TRUE(infer_views(wall, Vector3d::UnitZ(), step).empty());
+    EXPECT_TRUE(infer_views(wall, Vector3d::UnitZ()).empty());
 }
 
 TEST(InferredViews, AreOnlyOfSectionsWithoutAScanner) {
     TwoRooms rooms(false);
     rooms.map.sections[0].sensor_position = Vector3d(1.5, 2.0, 1.2);
-    EXPECT_TRUE(infer_views(rooms.map, Vector3d::UnitZ(), step).empty());
-    EXPECT_TRUE(infer_views({}, Vector3d::UnitZ(), step).empty());
+    EXPECT_TRUE(infer_views(rooms.map, Vector3d::UnitZ()).empty());
+    EXPECT_TRUE(infer_views({}, Vector3d::UnitZ()).empty());
     ScanMap lost;
     lost.cloud.positions.assign(5000, Vector3f::Constant(std::numeric_limits<float>::quiet_NaN()));
     lost.sections.push_back({"lost", 0, 5000, std::nullopt});
-    EXPECT_TRUE(infer_views(lost, Vector3d::UnitZ(), step).empty());
+    EXPECT_TRUE(infer_views(lost, Vector3d::UnitZ()).empty());
 }
 
 TEST(InferredViews, AreTheSameOnAnyNumberOfThreads) {
@@ -157,8 +157,8 @@ TEST(InferredViews, AreTheSameOnAnyNumberOfThreads) {
     one.num_threads = 1;
     Context two;
     two.num_threads = 2;
-    const auto views = infer_views(rooms.map, Vector3d::UnitZ(), step, one);
-    const auto others = infer_views(rooms.map, Vector3d::UnitZ(), step, two);
+    const auto views = infer_views(rooms.map, Vector3d::UnitZ(), one);
+    const auto others = infer_views(rooms.map, Vector3d::UnitZ(), two);
     ASSERT_EQ(views.size(), others.size());
     for (std::size_t i = 0; i < views.size(); ++i) {
         EXPECT_EQ(views[i].position, others[i].position);
