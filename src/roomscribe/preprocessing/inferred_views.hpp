@@ -17,7 +17,9 @@ namespace roomscribe {
 /// ceiling was scanned does not matter. Points seen from none of the places are in no view; of very
 /// many points an even share is.
 ///
-/// `up`: a unit vector. Empty if all sections have a scanner, or nothing is within a room.
+/// `up`: a unit vector. Empty if all sections have a scanner, nothing is within a room, or a
+/// quarter of the points lie more than 6 cm apart: the two faces of a wall cannot be told from each
+/// other.
 std::vector<InferredView> infer_views(const ScanMap& map, const Eigen::Vector3d& up,
                                       const Context& context = {});
 
