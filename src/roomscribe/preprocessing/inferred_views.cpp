@@ -2,7 +2,6 @@
 #include "roomscribe/preprocessing/inferred_views.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>

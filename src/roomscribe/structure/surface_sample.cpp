@@ -46,12 +46,14 @@ std::vector<SidesSeen> face_where_seen(const ScanMap& map, SurfaceSample& sample
     };
     for (const MapSection& section : map.sections) {
         if (!section.sensor_position) continue;
+        const Eigen::Vector3f sensor = section.sensor_position->cast<float>();
         for (std::uint32_t i = section.first; i < section.first + section.count; ++i)
-            count(i, section.sensor_position->cast<float>());
+            count(i, sensor);
     }
     for (const InferredView& view : map.inferred_views) {
+        const Eigen::Vector3f place = view.position.cast<float>();
         for (const std::uint32_t point : view.points)
-            count(point, view.position.cast<float>());
+            count(point, place);
     }
     for (std::size_t i = 0; i < sides.size(); ++i) {
         if (sides[i].front >= sides[i].back) continue;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 namespace roomscribe {
 namespace {
@@ -64,6 +65,38 @@ void count(WallRelief& relief, float along, float above, std::uint32_t ReliefCel
     if (depth < std::numeric_limits<std::uint16_t>::max()) ++depth;
 }
 
+/// Where the ray from an eye before the face to a point meets its plane: m along and above. Empty
+/// for NaN.
+std::optional<Eigen::Vector2f> crossing_of(const Vector3f& eye, const Vector3f& point) {
+    const float share = eye.z() / (eye.z() - point.z());
+    if (!(share > 0.0F)) return std::nullopt;
+    return eye.head<2>() + share * (point - eye).head<2>();
+}
+
+bool is_before(const Vector3f& point) {
+    return point.z() > max_relief;
+}
+bool is_behind(const Vector3f& point) {
+    return point.z() < -static_cast<float>(max_wall_depth);
+}
+
+/// A point before the wall hides it, and one behind was seen through it, where the ray crosses.
+void count_beyond(WallRelief& relief, const Vector3f& point, const Eigen::Vector2f& crossing) {
+    if (is_before(point)) {
+        count(relief, crossing.x(), crossing.y(), &ReliefCell::hidden);
+        return;
+    }
+    count(relief, crossing.x(), crossing.y(), &ReliefCell::through);
+    // Ground lies lower than floors; rooms are not so deep.
+    if (point.y() < -below_floor || point.z() < -farthest_room)
+        count(relief, crossing.x(), crossing.y(), &ReliefCell::outdoors);
+}
+
+void count_standing(WallRelief& relief, const Vector3f& point) {
+    if (is_before(point) && point.z() <= static_cast<float>(furniture_depth))
+        count(relief, point.x(), point.y(), &ReliefCell::standing);
+}
+
 /// The points of one scanner, whose rays come from `sensor` before the face.
 void follow_rays(WallRelief& relief, const FaceFrame& frame, std::span<const Vector3f> points,
                  std::size_t stride, const Vector3f& sensor) {
@@ -72,28 +105,19 @@ void follow_rays(WallRelief& relief, const FaceFrame& frame, std::span<const Vec
     if (eye.z() <= 2.0F * tolerance) return;
     for (std::size_t i = 0; i < points.size(); i += stride) {
         const Vector3f point = frame(points[i]);
-        if (point.z() > max_relief && point.z() <= static_cast<float>(furniture_depth))
-            count(relief, point.x(), point.y(), &ReliefCell::standing);
+        count_standing(relief, point);
         if (std::abs(point.z()) <= tolerance) {
             count(relief, point.x(), point.y(), &ReliefCell::surface, point.z());
             continue;
         }
-        // Where the ray meets the plane; false for NaN.
-        const float share = eye.z() / (eye.z() - point.z());
-        if (!(share > 0.0F)) continue;
-        const float along = eye.x() + share * (point.x() - eye.x());
-        const float above = eye.y() + share * (point.y() - eye.y());
-        if (point.z() > max_relief) {
-            count(relief, along, above, &ReliefCell::hidden);
+        const auto crossing = crossing_of(eye, point);
+        if (!crossing) continue;
+        if (is_before(point) || is_behind(point)) {
+            count_beyond(relief, point, *crossing);
         } else if (point.z() > 0.0F) {
             count(relief, point.x(), point.y(), &ReliefCell::surface, point.z());
-        } else if (point.z() < -static_cast<float>(max_wall_depth)) {
-            count(relief, along, above, &ReliefCell::through);
-            // Ground lies lower than floors; rooms are not so deep.
-            if (point.y() < -below_floor || point.z() < -farthest_room)
-                count(relief, along, above, &ReliefCell::outdoors);
         } else {
-            count(relief, along, above, &ReliefCell::recess, point.z());
+            count(relief, crossing->x(), crossing->y(), &ReliefCell::recess, point.z());
         }
     }
 }
@@ -106,19 +130,8 @@ void follow_view(WallRelief& relief, const FaceFrame& frame, std::span<const Vec
     if (eye.z() <= 2.0F * static_cast<float>(relief.tolerance)) return;
     for (std::size_t i = 0; i < view.points.size(); i += stride) {
         const Vector3f point = frame(points[view.points[i]]);
-        const bool is_before = point.z() > max_relief;
-        if (!is_before && point.z() >= -static_cast<float>(max_wall_depth)) continue;
-        const float share = eye.z() / (eye.z() - point.z());
-        if (!(share > 0.0F)) continue;
-        const float along = eye.x() + share * (point.x() - eye.x());
-        const float above = eye.y() + share * (point.y() - eye.y());
-        if (is_before) {
-            count(relief, along, above, &ReliefCell::hidden);
-        } else {
-            count(relief, along, above, &ReliefCell::through);
-            if (point.y() < -below_floor || point.z() < -farthest_room)
-                count(relief, along, above, &ReliefCell::outdoors);
-        }
+        if (!is_before(point) && !is_behind(point)) continue;
+        if (const auto crossing = crossing_of(eye, point)) count_beyond(relief, point, *crossing);
     }
 }
 
@@ -128,13 +141,12 @@ void place_points(WallRelief& relief, const FaceFrame& frame, std::span<const Ve
     const auto tolerance = static_cast<float>(relief.tolerance);
     for (std::size_t i = 0; i < points.size(); i += stride) {
         const Vector3f point = frame(points[i]);
-        if (point.z() > max_relief && point.z() <= static_cast<float>(furniture_depth))
-            count(relief, point.x(), point.y(), &ReliefCell::standing);
+        count_standing(relief, point);
         if (point.z() >= -tolerance && point.z() <= max_relief) {
             count(relief, point.x(), point.y(), &ReliefCell::surface, point.z());
         } else if (point.z() < -tolerance && point.z() >= -static_cast<float>(max_wall_depth)) {
             count(relief, point.x(), point.y(), &ReliefCell::recess, point.z());
-        } else if (counts_cover && point.z() > max_relief && point.z() <= max_cover) {
+        } else if (counts_cover && is_before(point) && point.z() <= max_cover) {
             count(relief, point.x(), point.y(), &ReliefCell::hidden);
         }
     }
