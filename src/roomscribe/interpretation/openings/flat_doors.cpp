@@ -79,9 +79,6 @@ class FlatDoorSearch {
     /// Standard errors of the difference of two strips; neighbouring cells err alike.
     static constexpr double min_errors = 3.0;
     static constexpr double correlated_cells = 8.0;
-    /// m before the wall: a casing's 15 to 20 mm and the 15 mm by which rebated leaves stand before
-    /// it (DIN 18101: 13 mm rebate, and its gap), and noise. The doors of wardrobes stand farther.
-    static constexpr double max_proud = 0.045;
     /// Of the cells of a leaf, those before which something stands: doors are kept clear, and the
     /// back of a shelf has the shelf before it.
     static constexpr double max_covered = 0.25;
@@ -257,7 +254,7 @@ class FlatDoorSearch {
                           const std::array<Side, 3>& sides, double least) const {
         if (leaf.covered > max_covered * leaf.count) return 0.0;
         double contrast = std::numeric_limits<double>::infinity();
-        double lowest = max_proud;
+        double lowest = most_proud;
         int num_hidden = 0;
         for (const Side& side : sides) {
             if (!side.wall && side.is_corner && side.leaf) {
@@ -268,7 +265,7 @@ class FlatDoorSearch {
             const double height = side.leaf->mean() - side.wall->mean();
             if (std::abs(side.leaf->mean() - leaf.mean()) > max_bend * height) return 0.0;
             lowest = std::min(lowest, height);
-            if (height > max_proud) return 0.0;
+            if (height > most_proud) return 0.0;
             contrast = std::min(contrast, step(*side.leaf, *side.wall, least));
             if (contrast < 1.0) return 0.0;
         }

@@ -11,6 +11,7 @@
 #include "roomscribe/core/parallel.hpp"
 #include "roomscribe/core/quantile.hpp"
 #include "roomscribe/core/units.hpp"
+#include "roomscribe/interpretation/openings/door_outlines.hpp"
 #include "roomscribe/interpretation/openings/door_sides.hpp"
 #include "roomscribe/interpretation/openings/door_sizes.hpp"
 #include "roomscribe/interpretation/openings/flat_doors.hpp"
@@ -188,6 +189,8 @@ class OpeningFinder {
     WallFace reach_to_corners(const StoreyLayout& rooms, const WallFace& face) const;
     std::optional<double> thickness_at(const StoreyLayout& layout, const WallFace& face,
                                        const WallRectangle& hole) const;
+    void add_outlined_doors(const WallOpening& place, const WallRelief& relief,
+                            std::vector<WallOpening>& openings) const;
     void add_flat_doors(std::size_t storey, std::size_t face, const WallRelief& relief,
                         std::vector<WallOpening>& openings) const;
     Vector3d place(const WallFace& face, double along, double up) const {
@@ -402,6 +405,73 @@ std::optional<WallOpening> OpeningFinder::judge(WallOpening opening, const WallR
     return opening;
 }
 
+/// Share of the cells within the rectangle straight before which more was seen than on them: the
+/// boards of shelves and what hangs in wardrobes stand before their backs.
+double covered_share(const WallRelief& relief, const WallRectangle& area) {
+    double met = 0.0;
+    double covered = 0.0;
+    for (int row = 0; row < relief.num_rows; ++row) {
+        for (int column = 0; column < relief.num_columns; ++column) {
+            const double along = relief.start + (column + 0.5) * relief.cell_size;
+            const double above = relief.bottom + (row + 0.5) * relief.cell_size;
+            const ReliefCell& cell = relief.at(column, row);
+            if (along < area.start || along > area.end || above > area.top || cell.near == 0)
+                continue;
+            ++met;
+            covered += cell.standing > cell.near ? 1.0 : 0.0;
+        }
+    }
+    return covered / std::max(met, 1.0);
+}
+
+/// Doors told by a border that steps out of the wall, or into it. What was found in the leaf, above
+/// its bottom rail, is its panes; other openings of the same place say more than a border does.
+void OpeningFinder::add_outlined_doors(const WallOpening& place, const WallRelief& relief,
+                                       std::vector<WallOpening>& openings) const {
+    constexpr double slack = 0.05;
+    constexpr double min_rail = 0.1;
+    // m; niches for radiators, below and around a window, are deeper.
+    constexpr double most_sunk_with_panes = 0.03;
+    // Doors are kept clear.
+    constexpr double max_covered = 0.25;
+    const StoreyLayout& rooms = layout(place.storey);
+    const WallFace& seen = rooms.faces[place.face];
+    const WallRectangle wall{seen.start, seen.end, relief.bottom,
+                             relief.bottom + relief.num_rows * relief.cell_size};
+    for (const DoorOutline& outline : find_door_outlines(relief.near_points, wall)) {
+        const WallRectangle& border = outline.border;
+        const auto is_beside = [&](const WallOpening& known) {
+            return known.hole.end <= border.start || known.hole.start >= border.end;
+        };
+        const auto is_pane = [&](const WallOpening& known) {
+            return known.is_pane ||
+                   (known.type == OpeningType::window && outline.step >= -most_sunk_with_panes &&
+                    known.hole.start >= border.start - slack &&
+                    known.hole.end <= border.end + slack &&
+                    known.hole.bottom >= border.bottom + min_rail &&
+                    known.hole.top <= border.top + slack);
+        };
+        const bool is_free = std::all_of(
+            openings.begin(), openings.end(),
+            [&](const WallOpening& known) { return is_beside(known) || is_pane(known); });
+        if (!is_free || covered_share(relief, border) > max_covered) continue;
+        std::erase_if(openings, [&](const WallOpening& known) {
+            return !is_beside(known) && is_pane(known);
+        });
+        WallOpening opening = place;
+        // The border of what stands out is that of the casing.
+        const double casing = outline.step > 0.0 ? casing_width : 0.0;
+        opening.hole = border.grown(-casing, 0.0, -casing);
+        opening.frame_width = casing_width;
+        opening.depth = -outline.inside;
+        opening.room_behind = room_behind(rooms, seen, opening.hole);
+        opening.rule = "outline of a door's size that steps out of its wall, on the floor";
+        opening.coverage = 1.0;
+        opening.confidence = 0.8;
+        openings.push_back(std::move(opening));
+    }
+}
+
 /// Closed leaves nearly in the plane of their wall: rectangles of a door's size, on the floor, that
 /// lie a few millimetres deeper than the wall on both sides and above, or have a casing
 /// around them that stands out.
@@ -506,6 +576,7 @@ OpenedWall OpeningFinder::look_at(std::size_t storey, std::size_t number) const 
                                                   std::min(tolerance, max_tolerance), cell_size_);
     std::vector<WallOpening> openings = judge_holes(opening_in(storey, number), relief);
     join_panes(openings);
+    add_outlined_doors(opening_in(storey, number), relief, openings);
     const int first = static_cast<int>(std::lround((seen.start - face.start) / cell_size_));
     const int count = static_cast<int>(std::ceil(seen.width() / cell_size_));
     const WallRelief of_seen =

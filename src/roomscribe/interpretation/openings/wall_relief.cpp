@@ -97,6 +97,17 @@ void count_standing(WallRelief& relief, const Vector3f& point) {
         count(relief, point.x(), point.y(), &ReliefCell::standing);
 }
 
+void keep_near(WallRelief& relief, const Vector3f& point) {
+    const auto width = static_cast<float>(relief.num_columns * relief.cell_size);
+    const auto height = static_cast<float>(relief.num_rows * relief.cell_size);
+    if (!(std::abs(point.z()) <= max_relief) || point.x() < 0.0F || point.x() > width ||
+        point.y() < 0.0F || point.y() > height) {
+        return;
+    }
+    relief.near_points.push_back({static_cast<float>(relief.start) + point.x(),
+                                  static_cast<float>(relief.bottom) + point.y(), -point.z()});
+}
+
 /// The points of one scanner, whose rays come from `sensor` before the face.
 void follow_rays(WallRelief& relief, const FaceFrame& frame, std::span<const Vector3f> points,
                  std::size_t stride, const Vector3f& sensor) {
@@ -106,6 +117,7 @@ void follow_rays(WallRelief& relief, const FaceFrame& frame, std::span<const Vec
     for (std::size_t i = 0; i < points.size(); i += stride) {
         const Vector3f point = frame(points[i]);
         count_standing(relief, point);
+        keep_near(relief, point);
         if (std::abs(point.z()) <= tolerance) {
             count(relief, point.x(), point.y(), &ReliefCell::surface, point.z());
             continue;
@@ -142,6 +154,7 @@ void place_points(WallRelief& relief, const FaceFrame& frame, std::span<const Ve
     for (std::size_t i = 0; i < points.size(); i += stride) {
         const Vector3f point = frame(points[i]);
         count_standing(relief, point);
+        keep_near(relief, point);
         if (point.z() >= -tolerance && point.z() <= max_relief) {
             count(relief, point.x(), point.y(), &ReliefCell::surface, point.z());
         } else if (point.z() < -tolerance && point.z() >= -static_cast<float>(max_wall_depth)) {
@@ -197,11 +210,15 @@ WallRelief measure_wall_relief(const ScanMap& map, const WallFace& face, const E
 }
 
 WallRelief columns_of(const WallRelief& relief, int first, int count) {
-    WallRelief part = relief;
-    part.start += first * relief.cell_size;
+    WallRelief part;
+    part.cell_size = relief.cell_size;
+    part.start = relief.start + first * relief.cell_size;
+    part.bottom = relief.bottom;
+    part.tolerance = relief.tolerance;
     part.num_columns = count;
-    part.cells.clear();
-    part.depths.clear();
+    part.num_rows = relief.num_rows;
+    part.has_rays = relief.has_rays;
+    part.looks_beyond = relief.looks_beyond;
     for (int row = 0; row < relief.num_rows; ++row) {
         for (int column = first; column < first + count; ++column) {
             const std::size_t cell = relief.index(column, row);

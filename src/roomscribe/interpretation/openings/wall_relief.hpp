@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "roomscribe/interpretation/openings/face_axes.hpp"
 #include "roomscribe/interpretation/rooms/wall_faces.hpp"
 #include "roomscribe/interpretation/rooms/wall_rectangle.hpp"
 #include "roomscribe/model/scan.hpp"
@@ -34,6 +35,9 @@ inline constexpr double max_wall_depth = 0.45;
 inline constexpr double near_depth = 0.15;
 /// m before the face. Shelves and wardrobes that stand at a wall are to 65 cm deep.
 inline constexpr double furniture_depth = 0.65;
+/// m before the face: a casing's 15 to 20 mm and the rebate's 15 mm on it (DIN 18101: 13 mm rebate,
+/// and its gap), and noise. The doors of wardrobes stand farther.
+inline constexpr double most_proud = 0.045;
 inline constexpr int num_depth_bins = 36;
 inline constexpr double depth_bin = max_wall_depth / num_depth_bins;
 
@@ -48,6 +52,9 @@ struct WallRelief {
     std::vector<ReliefCell> cells;  ///< row by row
     /// How deep the points of `recess` lie: num_depth_bins counts per cell.
     std::vector<std::uint16_t> depths;
+    /// The points within 10 cm before and behind the face: twice as far as doors step out of their
+    /// wall or into it, so that what is uneven about the face does not end there.
+    std::vector<FacePlace> near_points;
     /// Rays were followed: the scanners are known. Else what lies before or behind the face counts
     /// where it lies, and `through` is a guess: nothing was seen there at all.
     bool has_rays = false;
@@ -69,7 +76,7 @@ struct WallRelief {
 WallRelief measure_wall_relief(const ScanMap& map, const WallFace& face, const Eigen::Vector3d& up,
                                double bottom, double top, double tolerance, double cell_size);
 
-/// The relief's columns [first, first + count).
+/// The relief's columns [first, first + count), without `near_points`.
 WallRelief columns_of(const WallRelief& relief, int first, int count);
 
 /// Share of the wall that something stands before for all scanners that looked there, in [0, 1];
