@@ -160,8 +160,12 @@ CandidateTable find_candidates(const Labeller& labeller, std::size_t num_voxels)
 /// Tells what a point near an opening belongs to.
 class OpeningTest {
   public:
-    OpeningTest(const WallOpening& opening, const RoomSurfaces& surfaces)
+    OpeningTest(const WallOpening& opening, const RoomSurfaces& surfaces,
+                std::span<const Component> components)
         : opening_(opening),
+          surround_(opening.components.size() > 1 ? components[opening.components[1]]
+                                                  : wall_of(opening, surfaces)),
+          filling_(components[opening.components[0]]),
           axes_(face_of(opening, surfaces)),
           leaf_(opening.hole),
           frame_(opening.type == OpeningType::window
@@ -179,20 +183,22 @@ class OpeningTest {
                is_in(frame_, place);
     }
 
-    /// Number of the component in Openings::components that a place in reach belongs to, or
-    /// nothing. Not for windows.
-    std::optional<std::size_t> component_of(const FacePlace& place) const {
+    /// Leaf, pane or passage.
+    const Component& filling() const { return filling_; }
+    /// The frame; the wall of a passage without one.
+    const Component& surround() const { return surround_; }
+
+    /// The component that a place in reach belongs to, or nothing. Not for windows.
+    const Component* component_of(const FacePlace& place) const {
         const auto leaf_depth = static_cast<float>(opening_.depth);
-        if (is_in(leaf_, place)) {
-            // The lining lies along the sides, before and behind the leaf.
-            const bool is_at_side = std::min({place.along - leaf_.start, leaf_.end - place.along,
-                                              leaf_.top - place.above}) < lining_width;
-            // What stands in a passage is no part of it.
-            if (opening_.type == OpeningType::passage && !is_at_side) return std::nullopt;
-            const bool is_leaf = std::abs(place.depth - leaf_depth) <= leaf_reach;
-            return opening_.components[is_at_side && (opening_.is_open || !is_leaf) ? 1 : 0];
-        }
-        return opening_.components[1];
+        if (!is_in(leaf_, place)) return &surround_;
+        // The lining lies along the sides, before and behind the leaf.
+        const bool is_at_side = std::min({place.along - leaf_.start, leaf_.end - place.along,
+                                          leaf_.top - place.above}) < lining_width;
+        // What stands in a passage is no part of it.
+        if (opening_.type == OpeningType::passage && !is_at_side) return nullptr;
+        const bool is_leaf = std::abs(place.depth - leaf_depth) <= leaf_reach;
+        return is_at_side && (opening_.is_open || !is_leaf) ? &surround_ : &filling_;
     }
 
     /// Within an open leaf, which is a slab whose one side or other was seen.
@@ -228,7 +234,14 @@ class OpeningTest {
                place.above >= rectangle.bottom && place.above <= rectangle.top;
     }
 
+    static const Component& wall_of(const WallOpening& opening, const RoomSurfaces& surfaces) {
+        const StoreyLayout& layout = surfaces.storeys[opening.storey];
+        return surfaces.surfaces[layout.wall_of_face[opening.face]].component;
+    }
+
     const WallOpening& opening_;
+    const Component& surround_;
+    const Component& filling_;
     FaceAxes axes_;
     WallRectangle leaf_;
     WallRectangle frame_;
@@ -247,7 +260,7 @@ void label_openings(const PointCloud& map, const SurfaceSample& sample,
     std::vector<OpeningTest> tests;
     tests.reserve(openings.openings.size());
     for (const WallOpening& opening : openings.openings)
-        tests.emplace_back(opening, surfaces);
+        tests.emplace_back(opening, surfaces, openings.components);
     std::vector<bool> is_of_leaf(sample.cloud.size(), false);
     for (const WallOpening& opening : openings.openings) {
         for (const OpenLeafSide& side : opening.open_leaves) {
@@ -255,8 +268,7 @@ void label_openings(const PointCloud& map, const SurfaceSample& sample,
                 is_of_leaf[voxel] = true;
         }
     }
-    const auto give = [&](std::size_t point, std::size_t number) {
-        const Component& component = openings.components[number];
+    const auto give = [&](std::size_t point, const Component& component) {
         labels.labels[point] = component.label;
         labels.instances[point] = component.instance;
         labels.confidences[point] = static_cast<float>(component.confidence);
@@ -280,7 +292,7 @@ void label_openings(const PointCloud& map, const SurfaceSample& sample,
             const OpeningTest* door = nullptr;
             if (is_of_leaf[voxel]) door = find_test(in_leaf);
             if (door != nullptr) {
-                give(i, door->opening().components[0]);
+                give(i, door->filling());
                 continue;
             }
             bool is_given = false;
@@ -290,14 +302,14 @@ void label_openings(const PointCloud& map, const SurfaceSample& sample,
                 if (tests[t].opening().type == OpeningType::window) {
                     at_windows[begin / chunk].push_back({i, t});
                     is_given = true;
-                } else if (const auto component = tests[t].component_of(place)) {
+                } else if (const Component* component = tests[t].component_of(place)) {
                     give(i, *component);
                     is_given = true;
                 }
             }
             if (is_given || labels.labels[i] != Label::unknown) continue;
             door = find_test(in_leaf);
-            if (door != nullptr) give(i, door->opening().components[0]);
+            if (door != nullptr) give(i, door->filling());
         }
     });
     // What of a window is frame and what is pane is told by all of its points together.
@@ -324,7 +336,8 @@ void label_openings(const PointCloud& map, const SurfaceSample& sample,
                                noise / static_cast<double>(points.size()));
         for (std::size_t k = 0; k < points.size(); ++k) {
             if (parts[k] != WindowPart::reveal)
-                give(points[k], opening.components[parts[k] == WindowPart::pane ? 0 : 1]);
+                give(points[k],
+                     parts[k] == WindowPart::pane ? tests[t].filling() : tests[t].surround());
         }
     }
 }

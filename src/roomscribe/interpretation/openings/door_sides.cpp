@@ -248,7 +248,8 @@ void move_edges(WallOpening& opening, const DoorEdges& edges) {
             widest_side = std::max(widest_side, *sides[i]->outer - sides[i]->inner);
     }
     // One casing goes around a door; what stands beside it may hide a part of a side.
-    if (widest_side > 0.0) opening.frame_width = widest_side;
+    opening.has_casing = widest_side > 0.0;
+    if (opening.has_casing) opening.frame_width = widest_side;
     if (sides[0]) opening.hole.start -= sides[0]->inner;
     if (sides[1]) opening.hole.end += sides[1]->inner;
     if (sides[2]) opening.hole.top += sides[2]->inner;

@@ -13,6 +13,16 @@ namespace {
 
 using Eigen::Vector3d;
 
+/// m behind the face: between the casings of a wall of usual thickness.
+constexpr double usual_frame_depth = 0.06;
+
+/// Where no casing was seen, the frame of a leaf deep in the wall is set as deep.
+double depth_of_frame(const WallOpening& opening) {
+    const bool is_at_leaf =
+        !opening.has_casing && !opening.is_open && opening.depth > 2.0 * usual_frame_depth;
+    return is_at_leaf ? opening.depth : usual_frame_depth;
+}
+
 /// The components of the openings, and the rooms that they lead to.
 class ComponentBuilder {
   public:
@@ -60,10 +70,15 @@ class ComponentBuilder {
                 push(Label::window_frame, hole, opening.frame_depth);
                 break;
             case OpeningType::door:
+                push(Label::door, hole, opening.depth);
+                push(Label::door_frame, hole.grown(width, 0.0, width), depth_of_frame(opening));
+                connect(opening, layout, components[opening.components[0]].id);
+                break;
             case OpeningType::passage:
-                push(opening.type == OpeningType::door ? Label::door : Label::unknown, hole,
-                     opening.depth);
-                push(Label::door_frame, hole.grown(width, 0.0, width), casing_width);
+                push(Label::unknown, hole, opening.depth);
+                // Ways without a leaf are plastered as often as not.
+                if (opening.has_casing)
+                    push(Label::door_frame, hole.grown(width, 0.0, width), usual_frame_depth);
                 connect(opening, layout, components[opening.components[0]].id);
                 break;
         }

@@ -35,6 +35,7 @@ struct WallOpening {
     double depth = 0.0;        ///< m behind the face, of leaf or pane; < 0: before it
     double frame_depth = 0.0;  ///< m behind the face, of a window's frame and mullions
     double frame_width = 0.0;  ///< m; around a leaf, within a window's hole; 0 for none
+    bool has_casing = false;   ///< a door's or a passage's, that was seen to step out of the wall
     bool is_open = false;      ///< a door that stands open
     bool is_pane = false;      ///< a door of which one pane was told
     std::vector<OpenLeafSide> open_leaves;  ///< of an open door
@@ -44,7 +45,8 @@ struct WallOpening {
     double confidence = 0.0;
     std::string_view rule;         ///< that it was told by, in words
     std::string_view alternative;  ///< the rival reading; not empty if doubtful
-    /// Numbers of its components in Openings::components; door, window and passage first.
+    /// Numbers of its components in Openings::components: door, window or passage, then the frame,
+    /// if it has one.
     std::vector<std::size_t> components;
 };
 
