@@ -13,10 +13,11 @@
 namespace roomscribe {
 namespace {
 
-/// m. Leaves of 0.61 to 1.11 m (DIN 18101) without a casing, to those with one of 95 mm beside
-/// them; two leaves. Heights from the lowest leaf, 1.985 m less what lies on the floor, to the
+/// m. Leaves of 0.61 to 1.11 m (DIN 18101): set back, and with casings of 95 mm beside them; two
+/// leaves. Heights from the lowest leaf, 1.985 m less what lies on the floor, to the
 /// casing over one of 2.235 m.
 constexpr double min_width = 0.6;
+constexpr double max_sunk_width = 1.15;
 constexpr double max_width = 1.3;
 constexpr double min_double_width = 1.35;
 constexpr double max_double_width = 2.5;
@@ -34,9 +35,11 @@ constexpr double reach = 0.05;
 constexpr double above_skirting = 0.12;
 constexpr double lowest_read = 0.3;
 constexpr double highest_read = 1.8;
-/// Bins: no finer than a centimetre, which scanners blur edges by, nor wider than half a casing.
+/// Bins: no finer than a centimetre, which scanners blur edges by, nor wider than half a casing; a
+/// head is known from leaves' heights and may be read more coarsely.
 constexpr double finest_bin = 0.01;
 constexpr double coarsest_bin = 0.03;
+constexpr double coarsest_top_bin = 0.1;
 constexpr double usual_count = 20.0;
 constexpr std::size_t min_in_bin = 6;
 /// Of one step, how much another must reach at least to be like it.
@@ -150,6 +153,10 @@ class OutlineSearch {
         return {first, std::max(first, at(end))};
     }
 
+    static double bin_of(double points_per_metre) {
+        return std::max(finest_bin, usual_count / std::max(1.0, points_per_metre));
+    }
+
     void find_edges() {
         std::size_t num_read = 0;
         for (const FacePlace& place : near_) {
@@ -157,7 +164,7 @@ class OutlineSearch {
             num_read += above >= lowest_read && above <= highest_read ? 1 : 0;
         }
         const double per_metre = static_cast<double>(num_read) / std::max(0.1, wall_.width());
-        bin_ = std::max(finest_bin, usual_count / std::max(1.0, per_metre));
+        bin_ = bin_of(per_metre);
         if (bin_ > coarsest_bin) return;
         StripProfile profile(wall_.start, wall_.end, bin_);
         for (const FacePlace& place : near_) {
@@ -197,7 +204,7 @@ class OutlineSearch {
             return std::nullopt;
         outline.step = 0.5 * (left.step - right.step);
         if (!are_alike(left.step, -right.step) || outline.step > most_proud ||
-            outline.step < -most_sunk || (is_double(outline.border) && outline.step < 0.0)) {
+            outline.step < -most_sunk || (outline.step < 0.0 && width > max_sunk_width)) {
             return std::nullopt;
         }
         const std::optional<Edge> top = top_of(outline);
@@ -214,10 +221,18 @@ class OutlineSearch {
     /// The clearest step of a door's height between two upright edges.
     std::optional<Edge> top_of(const DoorOutline& outline) const {
         constexpr double inset = 0.03;
-        StripProfile profile(wall_.bottom + min_height - 0.2, wall_.bottom + max_height + 0.2,
-                             bin_);
-        for (const FacePlace& place :
-             between(outline.border.start + inset, outline.border.end - inset))
+        constexpr double margin = 0.2;
+        const auto inner = between(outline.border.start + inset, outline.border.end - inset);
+        const double low = wall_.bottom + min_height - margin;
+        const double high = wall_.bottom + max_height + margin;
+        const auto num_seen = std::count_if(
+            inner.begin(), inner.end(),
+            [&](const FacePlace& place) { return place.above >= low && place.above < high; });
+        // Lines of a scanner that looks up by few degrees are far apart there.
+        const double bin = bin_of(static_cast<double>(num_seen) / (high - low));
+        if (bin > coarsest_top_bin) return std::nullopt;
+        StripProfile profile(low, high, bin);
+        for (const FacePlace& place : inner)
             profile.add(place.above, -place.depth);
         profile.finish();
         std::optional<Edge> best;
@@ -261,7 +276,6 @@ class OutlineSearch {
         const double high = (border.top - reach - low) / num_parts;
         int num_like = 0;
         int num_unlike = 0;
-        bool is_lintel_seen = false;
         for (const bool is_left : {true, false}) {
             for (int part = 0; part < num_parts; ++part) {
                 const auto step =
@@ -273,12 +287,11 @@ class OutlineSearch {
             }
             const auto above =
                 step_between(border, is_left, border.top + reach, border.top + lintel);
-            if (!above) continue;
-            if (*above * outline.step > 0.0 && std::abs(*above) > alike * std::abs(outline.step))
+            if (above && *above * outline.step > 0.0 &&
+                std::abs(*above) > alike * std::abs(outline.step))
                 return false;
-            is_lintel_seen = true;
         }
-        return is_lintel_seen && num_like >= min_like + num_unlike && num_unlike <= 1;
+        return num_like >= min_like + num_unlike && num_unlike <= 1;
     }
 
     /// How far points of a rectangle lie before the face.
