@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "roomscribe/interpretation/furniture/chair_backs.hpp"
 #include "roomscribe/interpretation/furniture/furniture_voxels.hpp"
 #include "roomscribe/interpretation/furniture/hidden_seats.hpp"
 #include "roomscribe/interpretation/furniture/level_slabs.hpp"
@@ -367,6 +368,7 @@ Furniture find_furniture(const ScanMap& map, const SurfaceSample& sample,
     for (PieceDraft& draft : draft_pieces(all, slabs))
         drafts.push_back(std::move(draft));
     part_pedestals(all, slabs, drafts);
+    part_chairs(all, slabs, drafts);
     complete_chairs(all, slabs, surfaces, drafts);
     context.throw_if_cancelled();
     join_worktop_rows(all, slabs, surfaces, drafts);
