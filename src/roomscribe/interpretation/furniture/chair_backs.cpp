@@ -191,16 +191,22 @@ class ChairParter {
         return static_cast<std::size_t>(low) >= enough_below;
     }
 
-    /// Whether flat upright surface closes what is below a back, as in a box.
-    bool goes_on_below(const PieceDraft& chair, double width) const {
+    /// Whether one flat upright surface closes what is below a back, as in a box. Legs in line are
+    /// flat, too, but leave most open; hind legs lie in the back's own plane.
+    bool goes_on_below(const PieceDraft& chair, const ChairBack& back) const {
         constexpr double min_closed = 0.5;
-        const auto closing =
-            std::count_if(chair.voxels.begin(), chair.voxels.end(), [&](std::uint32_t i) {
-                const FurnitureVoxel& voxel = all_.voxels[i];
-                return voxel.height <= min_bottom && voxel.is_upright && voxel.is_planar;
-            });
+        std::map<std::uint32_t, std::size_t> count_of_patch;
+        std::size_t most = 0;
+        for (const std::uint32_t i : chair.voxels) {
+            const FurnitureVoxel& voxel = all_.voxels[i];
+            const bool is_of_back = std::find(back.patches.begin(), back.patches.end(),
+                                              voxel.patch) != back.patches.end();
+            if (voxel.height <= min_bottom && voxel.is_upright && voxel.is_planar && !is_of_back)
+                most = std::max(most, ++count_of_patch[voxel.patch]);
+        }
         const double voxel_area = 0.25 * all_.reach * all_.reach;
-        return voxel_area * static_cast<double>(closing) >= min_closed * width * min_bottom;
+        return voxel_area * static_cast<double>(most) >=
+               min_closed * back.rectangle.length * min_bottom;
     }
 
     void part(std::size_t number, const std::vector<const ChairBack*>& backs) {
@@ -234,9 +240,7 @@ class ChairParter {
             max_left * static_cast<double>(draft.voxels.size()))
             return;
         for (std::size_t c = 0; c < chairs.size(); ++c) {
-            if (!has_seat_or_legs(chairs[c]) ||
-                goes_on_below(chairs[c], backs[c]->rectangle.length))
-                return;
+            if (!has_seat_or_legs(chairs[c]) || goes_on_below(chairs[c], *backs[c])) return;
             for (std::size_t other = 0; other < c; ++other) {
                 if (places[c].holds(places[other].back.center) ||
                     places[other].holds(places[c].back.center))
@@ -268,6 +272,7 @@ std::vector<ChairBack> find_chair_backs(const FurnitureVoxels& all) {
     }
     std::vector<ChairBack> backs;
     for (auto& [key, back] : patches) {
+        back.patches = {std::get<2>(key)};
         const auto near_wall =
             std::count_if(back.voxels.begin(), back.voxels.end(),
                           [&](std::uint32_t i) { return all.voxels[i].is_near_wall; });
@@ -280,6 +285,7 @@ std::vector<ChairBack> find_chair_backs(const FurnitureVoxels& all) {
             backs.push_back(std::move(back));
             continue;
         }
+        same->patches.insert(same->patches.end(), back.patches.begin(), back.patches.end());
         same->voxels.insert(same->voxels.end(), back.voxels.begin(), back.voxels.end());
         std::sort(same->voxels.begin(), same->voxels.end());
     }

@@ -14,7 +14,8 @@ namespace roomscribe {
 /// A flat upright face of a chair's back: 0.3 to 0.56 m wide, from a seat's height or higher up to
 /// 0.72 to 1.15 m, off walls.
 struct ChairBack {
-    std::vector<std::uint32_t> voxels;  ///< numbers in FurnitureVoxels, ascending
+    std::vector<std::uint32_t> voxels;   ///< numbers in FurnitureVoxels, ascending
+    std::vector<std::uint32_t> patches;  ///< that it consists of
     PlanRectangle rectangle;
     double bottom = 0.0;  ///< m above the floor
     double top = 0.0;     ///< m above the floor
