@@ -32,8 +32,8 @@ constexpr double seat_depth = 0.5;
 constexpr double lean = 0.1;
 /// Voxels of 4 cm, of a seat or of legs: two legs to half their height.
 constexpr std::size_t enough_below = 15;
-/// m: seats are a little wider than backs.
-constexpr double beside = 0.08;
+/// m: seats and legs are a little wider than the back.
+constexpr double beside = 0.05;
 
 /// m, the part of a back's axis between which it lies.
 std::pair<double, double> span_along(const ChairBack& back, const Eigen::Vector2d& axis) {
@@ -74,19 +74,6 @@ bool is_back(const FurnitureVoxels& all, ChairBack& back) {
     const double area = 0.25 * all.reach * all.reach * count;
     return area >= min_fill * back.rectangle.length * (back.top - back.bottom);
 }
-
-/// A chair's place in the plan, by its back.
-struct ChairPlace {
-    PlanRectangle back;
-    Eigen::Vector2d forward;
-
-    bool holds(const Eigen::Vector2d& place) const {
-        const Eigen::Vector2d from = place - back.center;
-        const double before = from.dot(forward);
-        return std::abs(from.dot(back.axis)) <= 0.5 * back.length + beside &&
-               before >= -0.5 * back.width - lean && before <= seat_depth;
-    }
-};
 
 class ChairParter {
   public:
@@ -191,24 +178,6 @@ class ChairParter {
         return static_cast<std::size_t>(low) >= enough_below;
     }
 
-    /// Whether one flat upright surface closes what is below a back, as in a box. Legs in line are
-    /// flat, too, but leave most open; hind legs lie in the back's own plane.
-    bool goes_on_below(const PieceDraft& chair, const ChairBack& back) const {
-        constexpr double min_closed = 0.5;
-        std::map<std::uint32_t, std::size_t> count_of_patch;
-        std::size_t most = 0;
-        for (const std::uint32_t i : chair.voxels) {
-            const FurnitureVoxel& voxel = all_.voxels[i];
-            const bool is_of_back = std::find(back.patches.begin(), back.patches.end(),
-                                              voxel.patch) != back.patches.end();
-            if (voxel.height <= min_bottom && voxel.is_upright && voxel.is_planar && !is_of_back)
-                most = std::max(most, ++count_of_patch[voxel.patch]);
-        }
-        const double voxel_area = 0.25 * all_.reach * all_.reach;
-        return voxel_area * static_cast<double>(most) >=
-               min_closed * back.rectangle.length * min_bottom;
-    }
-
     void part(std::size_t number, const std::vector<const ChairBack*>& backs) {
         constexpr double max_left = 0.35;  // of the voxels: sofas are deeper than chairs
         const PieceDraft draft = drafts_[number];
@@ -240,7 +209,10 @@ class ChairParter {
             max_left * static_cast<double>(draft.voxels.size()))
             return;
         for (std::size_t c = 0; c < chairs.size(); ++c) {
-            if (!has_seat_or_legs(chairs[c]) || goes_on_below(chairs[c], *backs[c])) return;
+            if (!has_seat_or_legs(chairs[c]) ||
+                is_closed_below(all_, chairs[c].voxels, backs[c]->patches,
+                                backs[c]->rectangle.length))
+                return;
             for (std::size_t other = 0; other < c; ++other) {
                 if (places[c].holds(places[other].back.center) ||
                     places[other].holds(places[c].back.center))
@@ -262,6 +234,29 @@ class ChairParter {
 };
 
 }  // namespace
+
+bool ChairPlace::holds(const Eigen::Vector2d& place) const {
+    const Eigen::Vector2d from = place - back.center;
+    const double before = from.dot(forward);
+    return std::abs(from.dot(back.axis)) <= 0.5 * back.length + beside &&
+           before >= -0.5 * back.width - lean && before <= seat_depth;
+}
+
+bool is_closed_below(const FurnitureVoxels& all, std::span<const std::uint32_t> below,
+                     std::span<const std::uint32_t> back_patches, double width) {
+    constexpr double min_closed = 0.5;
+    std::map<std::uint32_t, std::size_t> count_of_patch;
+    std::size_t most = 0;
+    for (const std::uint32_t i : below) {
+        const FurnitureVoxel& voxel = all.voxels[i];
+        if (voxel.height > min_bottom || !voxel.is_upright || !voxel.is_planar) continue;
+        if (std::find(back_patches.begin(), back_patches.end(), voxel.patch) != back_patches.end())
+            continue;
+        most = std::max(most, ++count_of_patch[voxel.patch]);
+    }
+    const double voxel_area = 0.25 * all.reach * all.reach;
+    return voxel_area * static_cast<double>(most) >= min_closed * width * min_bottom;
+}
 
 std::vector<ChairBack> find_chair_backs(const FurnitureVoxels& all) {
     std::map<std::tuple<std::uint32_t, std::int32_t, std::uint32_t>, ChairBack> patches;

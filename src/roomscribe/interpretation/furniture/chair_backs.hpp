@@ -21,6 +21,20 @@ struct ChairBack {
     double top = 0.0;     ///< m above the floor
 };
 
+/// Where seat and legs of a chair are, by its back.
+struct ChairPlace {
+    PlanRectangle back;
+    Eigen::Vector2d forward;  ///< unit vector, from the back over the seat
+
+    bool holds(const Eigen::Vector2d& place) const;
+};
+
+/// Whether one flat upright surface closes what is below a back, as the lower half of a front does.
+/// Legs in line are flat, too, but leave most open; hind legs lie in the back's own plane.
+/// `below`: numbers in FurnitureVoxels, of which those up to a seat's height count.
+bool is_closed_below(const FurnitureVoxels& all, std::span<const std::uint32_t> below,
+                     std::span<const std::uint32_t> back_patches, double width);
+
 /// By the patches of the voxels; a back that noise parts into several is one.
 std::vector<ChairBack> find_chair_backs(const FurnitureVoxels& all);
 

@@ -9,6 +9,7 @@
 #include <limits>
 #include <utility>
 
+#include "roomscribe/interpretation/furniture/chair_backs.hpp"
 #include "roomscribe/interpretation/furniture/furnishing_sizes.hpp"
 #include "roomscribe/interpretation/furniture/piece_form.hpp"
 #include "roomscribe/interpretation/furniture/piece_kinds.hpp"
@@ -18,26 +19,8 @@ namespace roomscribe {
 namespace {
 
 constexpr std::size_t no_draft = std::numeric_limits<std::size_t>::max();
-/// m: chairs are 0.45 to 0.55 deep before their back, which leans out over its legs.
-constexpr double seat_depth = 0.5;
-constexpr double lean = 0.1;
-/// m: legs stand a little wider than the back.
-constexpr double beside = 0.05;
 /// m above the floor: what ends lower has no back of its own.
 constexpr double min_back_top = 0.75;
-
-/// Where seat and legs of a chair are, by its back.
-struct ChairPlace {
-    PlanRectangle back;
-    Eigen::Vector2d forward;
-
-    bool holds(const Eigen::Vector2d& place) const {
-        const Eigen::Vector2d from = place - back.center;
-        const double before = from.dot(forward);
-        return std::abs(from.dot(back.axis)) <= 0.5 * back.length + beside &&
-               before >= -0.5 * back.width - lean && before <= seat_depth;
-    }
-};
 
 class ChairCompleter {
   public:
@@ -64,7 +47,7 @@ class ChairCompleter {
         }
         const std::vector<std::uint32_t>& below =
             sides[0].size() >= sides[1].size() ? sides[0] : sides[1];
-        if (goes_on_below(below, rectangle.length)) return;
+        if (is_closed_below(all_, below, {}, rectangle.length)) return;
         PieceDraft& draft = drafts_[back];
         draft.is_chair = true;
         for (const std::uint32_t i : below) {
@@ -87,17 +70,6 @@ class ChairCompleter {
             if (may_give(draft_of_voxel_[i], voxel, chair)) found.push_back(i);
         }
         return found;
-    }
-
-    /// Whether what is below a back closes the height of a seat, as the lower half of a front does;
-    /// legs are not flat, and seats not upright.
-    bool goes_on_below(std::span<const std::uint32_t> below, double width) const {
-        constexpr double min_closed = 0.5;
-        const auto closing = std::count_if(below.begin(), below.end(), [&](std::uint32_t i) {
-            return all_.voxels[i].is_upright && all_.voxels[i].is_planar;
-        });
-        const double voxel_area = 0.25 * all_.reach * all_.reach;
-        return voxel_area * static_cast<double>(closing) >= min_closed * width * max_seat;
     }
 
     /// Whether a voxel may be a chair's though a draft has it.
