@@ -48,6 +48,15 @@ TEST(GatherFacePoints, LeavesOutWhatInferredViewsSeeFromBehind) {
     EXPECT_EQ(points[0][1].point, 2U);
 }
 
+TEST(GatherFacePoints, AskTheViewsOfAPointBeforeItsVoxel) {
+    // Voxels are as large as leaves are thick: one holds points of both sides.
+    LeafFromBehind leaf;
+    leaf.map.inferred_views = {{Vector3d(-2.0, 0.5, 1.0), {1, 2}}, {Vector3d(2.0, 0.5, 1.0), {0}}};
+    const auto points = gather_face_points(leaf.map, leaf.sample, std::vector{leaf.face}, {});
+    ASSERT_EQ(points[0].size(), 1U);
+    EXPECT_EQ(points[0][0].point, 0U);
+}
+
 TEST(GatherFacePoints, LeaveTheSidesToTheScannersThatAreKnown) {
     LeafFromBehind leaf;
     leaf.sample.sensor_positions = {Vector3d(2.0, 0.5, 1.0)};

@@ -241,6 +241,25 @@ TEST(FindFixtures, DropsWhatReachesOverTheEdgeOfTheFront) {
     EXPECT_TRUE(find(scan).empty());
 }
 
+TEST(FindFixtures, LeavesStripsOfALeafBeforeItsOtherSideWhereNoScannerIsKnown) {
+    FrontScan scan(0.001);
+    scan.add_bar(0.2, 0.212, 0.3, 0.6, 0.04);
+    scan.add_bar(0.4, 0.412, 0.3, 0.6, 0.04);
+    scan.add_front();
+    ScanMap map = scan.map;
+    map.sections = {{"map", 0, static_cast<std::uint32_t>(map.cloud.size()), std::nullopt}};
+    const SurfaceSample sample = sample_surface(map, estimate_scan_statistics(map.cloud));
+    const MountingFace far_side = front();
+    EXPECT_EQ(find_fixtures(map, sample, std::array{far_side}).size(), 2U);
+    MountingFace near_side = front();
+    near_side.plane.offset = 0.04;
+    near_side.component = no_component;
+    EXPECT_TRUE(find_fixtures(map, sample, std::array{far_side, near_side}).empty());
+    // A bar is no face that goes on around it.
+    near_side.extent = {0.19, 0.22, 0.29, 0.61};
+    EXPECT_EQ(find_fixtures(map, sample, std::array{far_side, near_side}).size(), 2U);
+}
+
 TEST(FindFixtures, GivesNoGraspWhereTheFingersHaveNoRoom) {
     FrontScan scan = front_with_bar();
     FixtureSettings settings;

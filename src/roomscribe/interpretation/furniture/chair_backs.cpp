@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <limits>
 #include <map>
+#include <span>
 #include <tuple>
 #include <utility>
 
@@ -75,6 +76,10 @@ bool is_back(const FurnitureVoxels& all, ChairBack& back) {
     return area >= min_fill * back.rectangle.length * (back.top - back.bottom);
 }
 
+bool is_of(std::span<const std::uint32_t> patches, std::uint32_t patch) {
+    return std::find(patches.begin(), patches.end(), patch) != patches.end();
+}
+
 class ChairParter {
   public:
     ChairParter(const FurnitureVoxels& all, std::span<const LevelSlab> slabs,
@@ -138,7 +143,7 @@ class ChairParter {
         std::array<std::size_t, 2> counts{};
         for (const FurnitureVoxel& voxel : all_.voxels) {
             if (voxel.storey != some.storey || voxel.room != some.room || voxel.is_near_wall ||
-                voxel.height > max_seat)
+                voxel.height > max_seat || is_of(back.patches, voxel.patch))
                 continue;
             const Eigen::Vector2d place = voxel.place.head<2>();
             for (const std::size_t side : {std::size_t{0}, std::size_t{1}}) {
@@ -172,14 +177,21 @@ class ChairParter {
         return counts[0] >= counts[1] ? sides[0] : sides[1];
     }
 
-    bool has_seat_or_legs(const PieceDraft& chair) const {
-        const auto low = std::count_if(chair.voxels.begin(), chair.voxels.end(),
-                                       [&](auto i) { return all_.voxels[i].height <= max_seat; });
+    std::ptrdiff_t count_low(const PieceDraft& draft) const {
+        return std::count_if(draft.voxels.begin(), draft.voxels.end(),
+                             [&](std::uint32_t i) { return all_.voxels[i].height <= max_seat; });
+    }
+
+    bool has_seat_or_legs(const PieceDraft& chair, const ChairBack& back) const {
+        const auto low = std::count_if(chair.voxels.begin(), chair.voxels.end(), [&](auto i) {
+            const FurnitureVoxel& voxel = all_.voxels[i];
+            return voxel.height <= max_seat && !is_of(back.patches, voxel.patch);
+        });
         return static_cast<std::size_t>(low) >= enough_below;
     }
 
     void part(std::size_t number, const std::vector<const ChairBack*>& backs) {
-        constexpr double max_left = 0.35;  // of the voxels: sofas are deeper than chairs
+        constexpr double max_left = 0.35;  // of what is low: sofas are deeper than chairs
         const PieceDraft draft = drafts_[number];
         if (draft.is_chair || draft.is_under_top || top_of(number) > 0.0) return;
         const bool is_tall =
@@ -205,11 +217,10 @@ class ChairParter {
             }
             (best == no_draft ? rest : chairs[best]).voxels.push_back(i);
         }
-        if (static_cast<double>(rest.voxels.size()) >
-            max_left * static_cast<double>(draft.voxels.size()))
+        if (static_cast<double>(count_low(rest)) > max_left * static_cast<double>(count_low(draft)))
             return;
         for (std::size_t c = 0; c < chairs.size(); ++c) {
-            if (!has_seat_or_legs(chairs[c]) ||
+            if (!has_seat_or_legs(chairs[c], *backs[c]) ||
                 is_closed_below(all_, chairs[c].voxels, backs[c]->patches,
                                 backs[c]->rectangle.length))
                 return;
@@ -250,8 +261,7 @@ bool is_closed_below(const FurnitureVoxels& all, std::span<const std::uint32_t> 
     for (const std::uint32_t i : below) {
         const FurnitureVoxel& voxel = all.voxels[i];
         if (voxel.height > min_bottom || !voxel.is_upright || !voxel.is_planar) continue;
-        if (std::find(back_patches.begin(), back_patches.end(), voxel.patch) != back_patches.end())
-            continue;
+        if (is_of(back_patches, voxel.patch)) continue;
         most = std::max(most, ++count_of_patch[voxel.patch]);
     }
     const double voxel_area = 0.25 * all.reach * all.reach;
