@@ -83,6 +83,10 @@ TEST(FindChairBacks, TakeTwoLayersOfNoiseForOne) {
     made.fill({0.0, 0.0, 0.5}, {0.4, 0.0, 0.86});
     made.fill({0.08, 0.04, 0.5}, {0.44, 0.04, 0.86});
     EXPECT_EQ(find_chair_backs(made.voxels()).size(), 1U);
+    FurnitureVoxels over_each_other = made.voxels();
+    for (FurnitureVoxel& voxel : over_each_other.voxels)
+        voxel.storey = voxel.patch;
+    EXPECT_EQ(find_chair_backs(over_each_other).size(), 2U);
 }
 
 TEST(PartChairs, GivesEachBackWhatIsBeforeIt) {

@@ -27,7 +27,6 @@ constexpr double max_top = 1.15;
 constexpr double min_height = 0.12;
 /// Voxels of 4 cm: the lowest rail of a back is 0.4 x 0.15 m.
 constexpr std::size_t min_voxels = 35;
-
 /// m: chairs are so deep before their back, which leans out behind its legs.
 constexpr double seat_depth = 0.5;
 constexpr double lean = 0.1;
@@ -283,8 +282,11 @@ std::vector<ChairBack> find_chair_backs(const FurnitureVoxels& all) {
                           [&](std::uint32_t i) { return all.voxels[i].is_near_wall; });
         if (2 * static_cast<std::size_t>(near_wall) > back.voxels.size() || !is_back(all, back))
             continue;
+        const FurnitureVoxel& some = all.voxels[back.voxels.front()];
         const auto same = std::find_if(backs.begin(), backs.end(), [&](const ChairBack& known) {
-            return are_one_back(known, back);
+            const FurnitureVoxel& other = all.voxels[known.voxels.front()];
+            return other.storey == some.storey && other.room == some.room &&
+                   are_one_back(known, back);
         });
         if (same == backs.end()) {
             backs.push_back(std::move(back));
