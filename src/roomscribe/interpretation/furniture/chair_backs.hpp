@@ -8,6 +8,7 @@
 #include "roomscribe/interpretation/furniture/furniture_voxels.hpp"
 #include "roomscribe/interpretation/furniture/level_slabs.hpp"
 #include "roomscribe/interpretation/furniture/piece_drafts.hpp"
+#include "roomscribe/interpretation/furniture/plan_rectangle.hpp"
 
 namespace roomscribe {
 
