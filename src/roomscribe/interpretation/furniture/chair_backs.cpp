@@ -198,6 +198,7 @@ class ChairParter {
                         [&](std::uint32_t i) { return all_.voxels[i].height > max_top + 0.1; });
         if (is_tall) return;
         std::vector<ChairPlace> places;
+        places.reserve(backs.size());
         for (const ChairBack* back : backs)
             places.push_back(place_of(draft, *back));
         std::vector<PieceDraft> chairs(backs.size());
@@ -275,8 +276,9 @@ std::vector<ChairBack> find_chair_backs(const FurnitureVoxels& all) {
         patches[{voxel.storey, voxel.room, voxel.patch}].voxels.push_back(i);
     }
     std::vector<ChairBack> backs;
-    for (auto& [key, back] : patches) {
-        back.patches = {std::get<2>(key)};
+    for (auto& entry : patches) {
+        ChairBack& back = entry.second;
+        back.patches = {std::get<2>(entry.first)};
         const auto near_wall =
             std::count_if(back.voxels.begin(), back.voxels.end(),
                           [&](std::uint32_t i) { return all.voxels[i].is_near_wall; });
