@@ -138,6 +138,21 @@ TEST_F(RegisterPairOfScans, AGuessLeadsToTheSamePose) {
                 TransformNear(direct.target_from_source, same_distance, same_angle));
 }
 
+/// Whoever guesses so badly has not ruled out other poses.
+TEST_F(RegisterPairOfScans, AGuessOutOfReachOfTheIcpDoesNotStandForTheSearch) {
+    const auto from_guess = [&](double off) {
+        Transform guess = direct.target_from_source;
+        guess.translation().x() += off;
+        return register_pair_from(prepare(source), prepare(target), guess);
+    };
+    const RegistrationLink near = from_guess(0.1);
+    const RegistrationLink far = from_guess(0.3);
+    EXPECT_THAT(far.target_from_source,
+                TransformNear(near.target_from_source, same_distance, same_angle));
+    EXPECT_EQ(near.verdict, LinkVerdict::accepted);
+    EXPECT_EQ(far.verdict, LinkVerdict::ambiguous);
+}
+
 TEST_F(RegisterPairOfScans, PeopleWhoWalkAboutDoNotMatter) {
     const Scan crowded = scan_with_people({3.6, 2.0, 1.6}, 2, {{{2.3, 1.6}, {5.0, 0.8}}});
     const RegistrationLink found = link(crowded, target);

@@ -8,6 +8,7 @@
 #include "roomscribe/registration/pair/pose_probability.hpp"
 #include "roomscribe/registration/pair/pose_proposal.hpp"
 #include "roomscribe/registration/pair/pose_search.hpp"
+#include "roomscribe/registration/pair/pose_slides.hpp"
 #include "roomscribe/registration/pair/pose_verification.hpp"
 
 namespace roomscribe {
@@ -120,6 +121,45 @@ double evidence_of(const PoseSupport& support, const PreparedScan& source,
                : support.evidence();
 }
 
+/// The best of all poses, judged by its evidence and its lead over the others.
+RegistrationLink link_of_best(const PreparedScan& source, const PreparedScan& target,
+                              std::span<const VerifiedPose> poses, const RegistrationScale& scale,
+                              const PairRegistrationSettings& settings, const Context& context) {
+    const std::vector<const VerifiedPose*> rivals = find_rivals(source, poses, scale, settings);
+    const PoseSearch search = search_of(source, target, settings);
+    const auto evidence = [&](const VerifiedPose& pose) {
+        return evidence_of(pose.support, source, target, search);
+    };
+    PoseStanding standing{evidence(poses.front()), {}, search};
+    for (const VerifiedPose* rival : rivals)
+        standing.rival = std::max(standing.rival.value_or(0.0), evidence(*rival));
+    RegistrationLink link =
+        link_of(poses.front(), standing, source, target, scale, settings, context);
+    if (link.verdict == LinkVerdict::ambiguous) {
+        for (const VerifiedPose* rival : rivals) {
+            if (!tilts_a_camera(source, target, rival->icp.target_from_source))
+                link.rivals.push_back(rival->icp.target_from_source);
+        }
+    }
+    return link;
+}
+
+/// Where surfaces leave a pose free, as along a corridor, the list may hold one of many that fit as
+/// well: its neighbours along what is free are heard, too. Those that detail draws back to where
+/// they came from are no rivals.
+void add_slid_poses(const PreparedScan& source, const PreparedScan& target,
+                    const RegistrationLink& link, const RegistrationScale& scale,
+                    const PairRegistrationSettings& settings, std::vector<VerifiedPose>& poses,
+                    const Context& context) {
+    // Half as far again as ICP reaches: nearer it would draw them back.
+    for (const Transform& guess : slide_pose(source.spread, link.target_from_source,
+                                             link.unobservable, 1.5 * icp_reach(scale))) {
+        poses.push_back(verify_pose(source, target, guess, scale, settings, context));
+    }
+    sort_by_evidence(poses, settings.min_overlap);
+    put_tilted_last(source, target, poses);
+}
+
 }  // namespace
 
 RegistrationLink register_pair(const PreparedScan& source, const PreparedScan& target,
@@ -153,21 +193,10 @@ RegistrationLink register_pair(const PreparedScan& source, const PreparedScan& t
         nothing.stop_reason = "no_candidate";
         return nothing;
     }
-    const std::vector<const VerifiedPose*> rivals = find_rivals(source, poses, scale, settings);
-    const PoseSearch search = search_of(source, target, settings);
-    const auto evidence = [&](const VerifiedPose& pose) {
-        return evidence_of(pose.support, source, target, search);
-    };
-    PoseStanding standing{evidence(poses.front()), {}, search};
-    for (const VerifiedPose* rival : rivals)
-        standing.rival = std::max(standing.rival.value_or(0.0), evidence(*rival));
-    RegistrationLink link =
-        link_of(poses.front(), standing, source, target, scale, settings, context);
-    if (link.verdict == LinkVerdict::ambiguous) {
-        for (const VerifiedPose* rival : rivals) {
-            if (!tilts_a_camera(source, target, rival->icp.target_from_source))
-                link.rivals.push_back(rival->icp.target_from_source);
-        }
+    RegistrationLink link = link_of_best(source, target, poses, scale, settings, context);
+    if (link.verdict == LinkVerdict::accepted && !link.unobservable.empty()) {
+        add_slid_poses(source, target, link, scale, settings, poses, context);
+        link = link_of_best(source, target, poses, scale, settings, context);
     }
     return link;
 }
@@ -183,7 +212,12 @@ RegistrationLink register_pair_from(const PreparedScan& source, const PreparedSc
     // The guess stands for the search.
     constexpr PoseSearch search = PoseSearch::exhaustive;
     const PoseStanding standing{evidence_of(pose.support, source, target, search), {}, search};
-    return link_of(pose, standing, source, target, scale, settings, context);
+    RegistrationLink link = link_of(pose, standing, source, target, scale, settings, context);
+    // Of a pose out of its reach it says nothing.
+    const bool left_guess =
+        are_different(source, link.target_from_source, target_from_source_guess, scale);
+    if (left_guess && link.verdict == LinkVerdict::accepted) link.verdict = LinkVerdict::ambiguous;
+    return link;
 }
 
 }  // namespace roomscribe
