@@ -41,13 +41,8 @@ void join(LinkForest& forest, const RegistrationLink& link) {
 
 }  // namespace
 
-LinkForest grow_forest(std::span<const RegistrationLink> links, std::size_t num_scans,
-                       std::optional<double> min_ambiguous) {
-    LinkForest forest;
-    forest.set_of.resize(num_scans);
-    std::iota(forest.set_of.begin(), forest.set_of.end(), std::size_t{0});
-    forest.set_from_scan.assign(num_scans, Transform::Identity());
-    forest.is_doubtful.assign(num_scans, false);
+std::vector<std::size_t> likeliest_first(std::span<const RegistrationLink> links,
+                                         std::optional<double> min_ambiguous) {
     std::vector<std::size_t> order;
     for (std::size_t i = 0; i < links.size(); ++i) {
         if (links[i].verdict == LinkVerdict::accepted ||
@@ -59,7 +54,17 @@ LinkForest grow_forest(std::span<const RegistrationLink> links, std::size_t num_
     std::stable_sort(order.begin(), order.end(), [&links](std::size_t a, std::size_t b) {
         return is_better(links[a], links[b]);
     });
-    for (const std::size_t i : order) {
+    return order;
+}
+
+LinkForest grow_forest(std::span<const RegistrationLink> links, std::size_t num_scans,
+                       std::optional<double> min_ambiguous) {
+    LinkForest forest;
+    forest.set_of.resize(num_scans);
+    std::iota(forest.set_of.begin(), forest.set_of.end(), std::size_t{0});
+    forest.set_from_scan.assign(num_scans, Transform::Identity());
+    forest.is_doubtful.assign(num_scans, false);
+    for (const std::size_t i : likeliest_first(links, min_ambiguous)) {
         if (forest.set_of[links[i].source] == forest.set_of[links[i].target]) continue;
         join(forest, links[i]);
         forest.used_links.push_back(i);

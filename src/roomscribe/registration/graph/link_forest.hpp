@@ -20,9 +20,13 @@ struct LinkForest {
     std::vector<std::size_t> used_links;   ///< numbers of the links that join, ascending
 };
 
-/// Joins scans by the likeliest links, all accepted ones before any ambiguous one: a spanning tree
-/// per connected set. Ambiguous links take part if they have at least the probability
-/// `min_ambiguous`; none of them if it is not given.
+/// Numbers of the links that may join scans, all accepted ones before any ambiguous one. Ambiguous
+/// links are among them if they have at least the probability `min_ambiguous`; none is if it is not
+/// given.
+std::vector<std::size_t> likeliest_first(std::span<const RegistrationLink> links,
+                                         std::optional<double> min_ambiguous = {});
+
+/// Joins scans by the likeliest links (likeliest_first): a spanning tree per connected set.
 LinkForest grow_forest(std::span<const RegistrationLink> links, std::size_t num_scans,
                        std::optional<double> min_ambiguous = {});
 

@@ -13,7 +13,9 @@
 #include "roomscribe/registration/graph/link_forest.hpp"
 #include "roomscribe/registration/graph/pair_proposal.hpp"
 #include "roomscribe/registration/graph/pose_graph.hpp"
+#include "roomscribe/registration/graph/scan_placement.hpp"
 #include "roomscribe/registration/graph/scanner_mounting.hpp"
+#include "roomscribe/registration/graph/set_contradiction.hpp"
 #include "roomscribe/registration/graph/set_joining.hpp"
 #include "roomscribe/registration/pair/pair_registration.hpp"
 #include "roomscribe/registration/pair/pose_support.hpp"
@@ -60,10 +62,14 @@ class LinkFinder {
         link_known_neighbors();
         link_promising_pairs();
         if (drop_tilted_poses(links_, usual_ups())) link_promising_pairs();
+        while (reject_what_sets_contradict(links_, scans_, min_probability_to_place, context_))
+            link_promising_pairs();
         settle_by_known_poses();
         join_sets(links_, scans_, pair_, context_);
+        reject_what_sets_contradict(links_, scans_, min_probability_to_place, context_);
         close_loops();
         check_loops(links_, tolerance_);
+        reject_what_sets_contradict(links_, scans_, min_probability_to_place, context_);
         std::sort(links_.begin(), links_.end(), [](const auto& a, const auto& b) {
             return std::pair(a.source, a.target) < std::pair(b.source, b.target);
         });

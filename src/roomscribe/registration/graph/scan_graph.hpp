@@ -52,10 +52,11 @@ LinkTolerance link_tolerance(const RegistrationScale& scale);
 
 /// Links between scans in any order: the most promising pairs first, until the scans hang together
 /// or every scan has tried its partners; then links between scans that lie near each other, which
-/// close loops; then all links are held against the loops (check_loops). Known poses, the scans
-/// around it (join_sets) and loops can make an ambiguous link accepted. `known` is empty or has one
-/// entry per scan: known poses are the first guesses. The number of links grows with the number of
-/// scans, not with that of their pairs. Their order is that of their scans, source > target.
+/// close loops; then all links are held against the loops (check_loops). The scans around a link
+/// can have it rejected (reject_what_sets_contradict); known poses, the scans around it (join_sets)
+/// and loops can make an ambiguous link accepted. `known` is empty or has one entry per scan: known
+/// poses are the first guesses. The number of links grows with the number of scans, not with that
+/// of their pairs. Their order is that of their scans, source > target.
 std::vector<RegistrationLink> link_scans(std::span<const PreparedScan> scans,
                                          std::span<const std::optional<KnownPose>> known,
                                          const RegistrationScale& scale, std::uint64_t seed,

@@ -9,6 +9,7 @@
 
 #include "roomscribe/registration/graph/link_consistency.hpp"
 #include "roomscribe/registration/graph/link_forest.hpp"
+#include "roomscribe/registration/graph/pairs_across.hpp"
 #include "roomscribe/registration/pair/pose_probability.hpp"
 #include "roomscribe/registration/pair/pose_support.hpp"
 #include "roomscribe/registration/pair/pose_verification.hpp"
@@ -91,31 +92,15 @@ class SetJoiner {
     /// the pose because it suits them best: they are not asked again.
     Junction hear_both_sets(Junction junction, const SetPair& sets) const {
         constexpr std::size_t max_pairs = 8;
-        struct NearPair {
-            std::size_t source, target;
-            Transform target_from_source;
-            double distance;
-        };
-        std::vector<NearPair> pairs;
-        for (std::size_t a = 0; a < scans_.size(); ++a) {
-            if (forest_.set_of[a] != sets.first) continue;
-            const Transform from_source =
-                junction.target_set_from_source_set * forest_.set_from_scan[a];
-            for (std::size_t b = 0; b < scans_.size(); ++b) {
-                if (forest_.set_of[b] != sets.second) continue;
-                if (joins(links_[junction.link], a, b)) continue;
-                const Transform& from_target = forest_.set_from_scan[b];
-                pairs.push_back(
-                    {a, b, from_target.inverse() * from_source,
-                     (from_source * scans_[a].spread.mean - from_target * scans_[b].spread.mean)
-                         .norm()});
-            }
-        }
-        std::stable_sort(pairs.begin(), pairs.end(),
-                         [](const auto& a, const auto& b) { return a.distance < b.distance; });
+        std::vector<PairAcross> pairs =
+            nearest_across(scans_, forest_, sets.first, sets.second,
+                           junction.target_set_from_source_set, max_pairs + 1);
+        std::erase_if(pairs, [&](const PairAcross& pair) {
+            return joins(links_[junction.link], pair.source, pair.target);
+        });
         pairs.resize(std::min(pairs.size(), max_pairs));
         double sum = 0.0;
-        for (const NearPair& pair : pairs) {
+        for (const PairAcross& pair : pairs) {
             const PreparedScan& source = scans_[pair.source];
             const PreparedScan& target = scans_[pair.target];
             const PoseSupport support =
