@@ -30,7 +30,7 @@ double probability_of(const PoseStanding& standing) {
     // A frame that has no rival may have missed them all.
     if (!is_narrow && !standing.rival) return alone;
     const double lead = standing.evidence - standing.rival.value_or(0.0);
-    return alone * logistic(0.3 * (lead - (is_narrow ? 12.0 : 6.0)));
+    return alone * (is_narrow ? logistic(0.6 * (lead - 11.0)) : logistic(0.3 * (lead - 6.0)));
 }
 
 }  // namespace roomscribe
