@@ -194,7 +194,7 @@ RegistrationLink register_pair(const PreparedScan& source, const PreparedScan& t
         return nothing;
     }
     RegistrationLink link = link_of_best(source, target, poses, scale, settings, context);
-    if (link.verdict == LinkVerdict::accepted && !link.unobservable.empty()) {
+    if (link.verdict != LinkVerdict::rejected && !link.unobservable.empty()) {
         add_slid_poses(source, target, link, scale, settings, poses, context);
         link = link_of_best(source, target, poses, scale, settings, context);
     }
