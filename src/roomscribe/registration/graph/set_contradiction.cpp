@@ -36,7 +36,9 @@ bool is_contradicted(std::span<const PreparedScan> scans, const LinkForest& fore
                      const RegistrationLink& link, const Context& context) {
     // As much as a link needs for it, in confirmed pieces (docs/registration.md).
     constexpr double enough_evidence = 10.0;
-    return hear_sets(scans, forest, link, context).evidence() <= -enough_evidence;
+    const PoseSupport support = hear_sets(scans, forest, link, context);
+    // Pooled over pairs, one person counts as often as somebody sees the place.
+    return !support.shell_agrees() && support.evidence() <= -enough_evidence;
 }
 
 }  // namespace

@@ -181,6 +181,13 @@ double PoseSupport::evidence_with_shell() const {
     return weigh(std::lerp(usual_weight_of_shell, weight_of_clean_shell, cleanness));
 }
 
+bool PoseSupport::shell_agrees() const {
+    constexpr double max_shell_contradiction = 0.01;
+    constexpr std::size_t enough_shell = 200;
+    return shell.pieces.confirmed >= enough_shell &&
+           shell.pieces.contradicted_share() <= max_shell_contradiction;
+}
+
 double PoseSupport::weigh(double weight_of_shell) const {
     // What is displaced says nothing: blurred surfaces are displaced at the right pose, too.
     const std::size_t shell_confirmed = shell.pieces.confirmed;
@@ -190,14 +197,8 @@ double PoseSupport::weigh(double weight_of_shell) const {
     const auto contradicted_share = [](std::size_t contradicted, std::size_t confirmed_pieces) {
         return share(static_cast<double>(contradicted), contradicted + confirmed_pieces);
     };
-    // Rooms do not move: where people do, as good as nothing of the shell is contradicted, of so
-    // much shell that one per cent would show.
-    constexpr double max_shell_contradiction = 0.01;
-    constexpr std::size_t enough_shell = 200;
-    const bool shell_agrees = shell_confirmed >= enough_shell &&
-                              shell.pieces.contradicted_share() <= max_shell_contradiction;
     const std::size_t detail_contradicted =
-        shell_agrees ? detail.contradictions : detail.pieces.contradicted;
+        shell_agrees() ? detail.contradictions : detail.pieces.contradicted;
     // A corridor turned about fits all its shell: its details are not to be outvoted.
     const double contradicted =
         std::max(contradicted_share(detail_contradicted, detail_confirmed),

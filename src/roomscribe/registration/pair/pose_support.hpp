@@ -70,6 +70,10 @@ struct PoseSupport {
     /// either room into the other's free space. Cameras see too little of it.
     double evidence_with_shell() const;
 
+    /// Whether as good as nothing of the shell is contradicted, of so much that one per cent would
+    /// show. Rooms do not move: what is contradicted then is people and what they push about.
+    bool shell_agrees() const;
+
   private:
     /// In confirmed pieces of detail, of which one of the shell is worth `weight_of_shell`.
     double weigh(double weight_of_shell) const;
