@@ -17,5 +17,8 @@ inline constexpr double widest_usual_leaf = 1.11;
 inline constexpr double tallest_usual_leaf = 2.24;
 /// m. Thresholds, skirtings and what lies on the floor.
 inline constexpr double floor_reach = 0.25;
+/// Of the cells of a leaf, those before which something stands: doors are kept clear, and the back
+/// of a shelf has the shelf before it.
+inline constexpr double max_covered = 0.25;
 
 }  // namespace roomscribe

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "roomscribe/core/quantile.hpp"
+#include "roomscribe/interpretation/openings/door_sizes.hpp"
 
 namespace roomscribe {
 namespace {
@@ -79,9 +80,6 @@ class FlatDoorSearch {
     /// Standard errors of the difference of two strips; neighbouring cells err alike.
     static constexpr double min_errors = 3.0;
     static constexpr double correlated_cells = 8.0;
-    /// Of the cells of a leaf, those before which something stands: doors are kept clear, and the
-    /// back of a shelf has the shelf before it.
-    static constexpr double max_covered = 0.25;
     /// m to either side, within which a wall is seen about as well.
     static constexpr double usual_reach = 1.0;
     /// Of the least step, what a leaf with a lever must show: no wall has one.

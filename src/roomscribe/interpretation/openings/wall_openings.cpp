@@ -432,8 +432,6 @@ void OpeningFinder::add_outlined_doors(const WallOpening& place, const WallRelie
     constexpr double min_rail = 0.1;
     // m; niches for radiators, below and around a window, are deeper.
     constexpr double most_sunk_with_panes = 0.03;
-    // Doors are kept clear.
-    constexpr double max_covered = 0.25;
     const StoreyLayout& rooms = layout(place.storey);
     const WallFace& seen = rooms.faces[place.face];
     const WallRectangle wall{seen.start, seen.end, relief.bottom,
